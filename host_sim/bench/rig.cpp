@@ -171,9 +171,11 @@ Vec mean_force_N(const RigRun& run, size_t ticks) {
 
 std::vector<ScoredTick> scored(const RigRun& run) {
   std::vector<ScoredTick> ticks;
-  for (const RigTick& tick : run)
+  for (const RigTick& tick : run) {
+    const double turn = ticks.empty() ? 0 : turn_rad(ticks.back().contact_N, tick.force_N);
     ticks.push_back(
-        {tick.force_N, tick.force_N, tick.motor_N, tick.device_m, tick.depth_m, tick.is_on});
+        {tick.force_N, tick.force_N, turn, tick.motor_N, tick.device_m, tick.depth_m, tick.is_on});
+  }
   return ticks;
 }
 

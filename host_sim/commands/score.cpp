@@ -6,6 +6,7 @@
 
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/logged_session.hpp"
 #include "host_sim/commands/outputs.hpp"
 #include "host_sim/report/score_page.hpp"
 #include "host_sim/trace/log.hpp"
@@ -39,8 +40,17 @@ ScoredRun from_log(const std::string& path, const cli::Arguments& options) {
   run.settings = {1 / logged(log, params::kTickPeriod), logged(log, params::kForceLimit),
                   logged(log, params::kToolRadius), logged(log, params::kContactStiffness)};
   use(options, run.settings);
+  Environment environment;
+  std::unique_ptr<Session> session;
+  if (options.has("--asset")) {
+    session = session_of(path, log, options.text("--asset"));
+    environment = environment_of(
+        *session->controller,
+        {logged(log, params::kSceneX), logged(log, params::kSceneY), logged(log, params::kSceneZ)});
+  }
+  ContactTurn turn(&environment);
   for (const record::TickRecord& record : log.records)
-    run.ticks.push_back(scored(record.output, wide(record.output.position_m), run.settings));
+    run.ticks.push_back(scored(record.output, wide(record.output.position_m), run.settings, turn));
   return run;
 }
 
@@ -91,6 +101,13 @@ ScoredRun from_csv(const std::string& path, const cli::Arguments& options) {
   CsvRun csv(path, read_file(path));
   ScoredRun run;
   use(options, run.settings);
+  Environment environment;
+  std::unique_ptr<Session> session;
+  if (options.has("--asset")) {
+    session = std::make_unique<Session>(options.text("--asset"));
+    environment = environment_of(*session->controller, {});
+  }
+  ContactTurn turn(&environment);
   double end_s = 0;
   while (csv.next()) {
     csv.read();
@@ -102,7 +119,7 @@ ScoredRun from_csv(const std::string& path, const cli::Arguments& options) {
     csv.read("position_m", out.position_m);
     csv.read("proxy_m", out.proxy_m);
     out.penetration_m = static_cast<float>(csv.value("penetration_m"));
-    run.ticks.push_back(scored(out, csv.vector("device_m"), run.settings));
+    run.ticks.push_back(scored(out, csv.vector("device_m"), run.settings, turn));
   }
   if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
   return run;
@@ -143,6 +160,7 @@ cli::Command score_command() {
       "those\n"
       "given here.",
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
+       {"--asset", "FILE.fta", "of the run: turns of contact that its textures state do not count"},
        {"--force-limit", "N", "force_limit of the run"},
        {"--tool-radius", "M", "tool_radius of the run"},
        {"--stiffness", "N_PER_M", "contact_stiffness of the run"},

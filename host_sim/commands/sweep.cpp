@@ -70,8 +70,9 @@ std::vector<ScoreRow> score_of_run(const Sweep& sweep, uint64_t run, uint32_t& f
                                   parameter_value(scenario, params::kToolRadius),
                                   parameter_value(scenario, params::kContactStiffness)};
   std::vector<ScoredTick> ticks;
+  ContactTurn turn(&environment);
   for (RunTick tick; simulation.next(tick);) {
-    ticks.push_back(scored(tick.record.output, tick.device_m, settings));
+    ticks.push_back(scored(tick.record.output, tick.device_m, settings, turn));
     faults |= tick.record.output.faults;
   }
   return rows_of(score_of(ticks, settings), settings);

@@ -48,6 +48,8 @@ Environment environment_of(const ToolController& controller, Vec origin_m) {
   for (const scene::MaterialLayout& material : controller.materials().table())
     materials.emplace_back(material.name);
   environment.name_materials(std::move(materials));
+  const core::Span<const scene::TextureLayout> textures = controller.materials().textures();
+  environment.set_textures({textures.begin(), textures.end()});
   const scene::StoredTool& spheres = controller.tool().spheres();
   environment.set_tool({spheres.begin(), spheres.end()});
   return environment;

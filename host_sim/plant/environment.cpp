@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/scene/texture.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 
 namespace firmtouch::host_sim {
@@ -64,6 +65,13 @@ uint32_t Environment::triangle_count() const {
   uint32_t count = 0;
   for (const PlacedMesh& placed : meshes_) count += placed.mesh.head().triangle_count;
   return count;
+}
+
+Vec Environment::texture_slope(uint32_t material, Vec tool_m) const {
+  if (material == 0 || material > textures_.size()) return {};
+  const PlacedMesh& placed = meshes_.front();
+  return placed.turned(
+      wide(scene::cut_at(textures_[material - 1], tools::to_vec3(placed.to_own(tool_m))).slope));
 }
 
 Vec Environment::guide_at(double arc_m) const {

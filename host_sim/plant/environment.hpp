@@ -46,6 +46,10 @@ class Environment {
   /// Names of the materials of the mesh's triangles; empty: they have none.
   const std::vector<std::string>& materials() const { return materials_; }
   void name_materials(std::vector<std::string> names) { materials_ = std::move(names); }
+  /// One a material, or none.
+  void set_textures(std::vector<scene::TextureLayout> textures) { textures_ = std::move(textures); }
+  /// Slope of the texture of a material, from 1, that the tool has in the device frame; 0: none.
+  Vec texture_slope(uint32_t material, Vec tool_m) const;
   const spline::View& surface() const { return surface_; }
   /// Triangles of the spline surfaces, in the asset's frame; empty for a mesh.
   const Tessellation& tessellation() const { return tessellation_; }
@@ -59,6 +63,7 @@ class Environment {
  private:
   std::vector<PlacedMesh> meshes_;
   std::vector<std::string> materials_;
+  std::vector<scene::TextureLayout> textures_;
   spline::View surface_;
   Tessellation tessellation_;
   bool normals_inward_ = false;

@@ -10,8 +10,44 @@ constexpr double kCutOff_Hz = 50;
 constexpr double kMean_s = 0.1;
 constexpr double kMinShare = 0.05;  // of the force limit
 constexpr double kPi = 3.14159265358979323846;
+constexpr int kShares = 16;  // of a texture
+
+double angle_rad(Vec a, Vec b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
+
+// The unit normal n of a contact along f = (n + g) / |n + g|: n = |n + g| f - g. Slopes are below
+// 1, so that one solution is positive.
+Vec normal_of(Vec contact_N, Vec slope) {
+  const Vec along = unit(contact_N);
+  const double part = dot(along, slope);
+  return along * (part + std::sqrt(part * part + 1 - dot(slope, slope))) - slope;
+}
 
 }  // namespace
+
+double ContactTurn::add_rad(const record::TickOutput& out, Vec contact_N) {
+  double turn_rad = angle_rad(last_N_, contact_N);
+  const Vec at_m = wide(out.position_m);
+  const bool has_material = environment_ != nullptr && !environment_->materials().empty() &&
+                            (out.state & record::kStateContact) != 0;
+  const uint32_t material = has_material ? out.state >> record::kStateMaterialShift & 255u : 0;
+  if (material != material_) {
+    before_ = material == 0 ? 0 : material_;
+    material_ = material;
+  }
+  for (const uint32_t of : {material_, before_}) {
+    if (of == 0 || !(norm(last_N_) > 0 && norm(contact_N) > 0)) continue;
+    const Vec last = environment_->texture_slope(of, last_m_);
+    const Vec now = environment_->texture_slope(of, at_m);
+    for (int k = 1; k <= kShares && norm(now - last) > 0; ++k) {
+      const double share = static_cast<double>(k) / kShares;
+      turn_rad = std::min(
+          turn_rad, angle_rad(normal_of(last_N_, last * share), normal_of(contact_N, now * share)));
+    }
+  }
+  last_N_ = contact_N;
+  last_m_ = at_m;
+  return turn_rad;
+}
 
 Vec contact_force_N(const record::TickOutput& out, double stiffness_N_per_m) {
   if ((out.state & record::kStateOnGuide) == 0 || (out.state & record::kStateProxy) == 0)
@@ -36,7 +72,7 @@ double ContactQuality::high_pass(Section& s, double x) const {
   return y;
 }
 
-void ContactQuality::add(Vec force_N, Vec contact_N, bool motors_are_on) {
+void ContactQuality::add(Vec force_N, Vec contact_N, double turn_rad, bool motors_are_on) {
   const double component[3] = {force_N.x, force_N.y, force_N.z};
   if (!motors_are_on) {
     was_on_ = false;
@@ -57,8 +93,7 @@ void ContactQuality::add(Vec force_N, Vec contact_N, bool motors_are_on) {
   if (chatter_N > kChatterShare * limit_N_) chatter_s_ += 1 / rate_Hz_;
   const Vec guide_N = force_N - contact_N;
   if (was_on_ && norm(contact_N) > min_N_ && norm(last_contact_N_) > min_N_)
-    turn_rad_ = std::max(turn_rad_, std::atan2(norm(cross(last_contact_N_, contact_N)),
-                                               dot(last_contact_N_, contact_N)));
+    turn_rad_ = std::max(turn_rad_, turn_rad);
   if (was_on_) guide_step_N_ = std::max(guide_step_N_, norm(guide_N - last_guide_N_));
   last_contact_N_ = contact_N;
   last_guide_N_ = guide_N;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "host_sim/report/buzz.hpp"
-#include "host_sim/report/contact_quality.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
@@ -34,9 +33,12 @@ double worst_buzz_N(const std::vector<ScoredTick>& ticks, double rate_Hz) {
 
 }  // namespace
 
-ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings) {
+ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings,
+                  ContactTurn& turn) {
+  const Vec contact_N = contact_force_N(output, settings.stiffness_N_per_m);
   return {wide(output.force_N),
-          contact_force_N(output, settings.stiffness_N_per_m),
+          contact_N,
+          turn.add_rad(output, contact_N),
           wide(output.motor_N),
           device_m,
           static_cast<double>(output.penetration_m),
@@ -55,6 +57,10 @@ double stored_J(const ScoreSettings& settings, double depth_m) {
 double turn_rad(Vec a_N, Vec b_N) {
   if (norm(a_N) < kDirection_N || norm(b_N) < kDirection_N) return 0;
   return std::atan2(norm(cross(a_N, b_N)), dot(a_N, b_N));
+}
+
+double turn_rad(const ScoredTick& before, const ScoredTick& now) {
+  return turn_rad(before.contact_N, now.contact_N) > 0 ? now.turn_rad : 0;
 }
 
 Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settings) {
@@ -78,7 +84,7 @@ Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settin
     const Vec last_N = ticks[i - 1].contact_N, now_N = tick.contact_N;
     const double moved_m = norm(tick.device_m - ticks[i - 1].device_m);
     if (!(norm(now_N - last_N) > settings.stiffness_N_per_m * moved_m)) continue;
-    score.turn_rad = std::max(score.turn_rad, turn_rad(last_N, now_N));
+    score.turn_rad = std::max(score.turn_rad, turn_rad(ticks[i - 1], tick));
     if (norm(last_N) > kPressed_N && norm(now_N) < kLetGo_N) ++score.let_go;
   }
   return score;

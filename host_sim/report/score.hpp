@@ -3,14 +3,15 @@
 #include <vector>
 
 #include "firmtouch/record/tick.hpp"
-#include "host_sim/plant/vec.hpp"
+#include "host_sim/report/contact_quality.hpp"
 
 namespace firmtouch::host_sim {
 
 /// What a score needs of a tick.
 struct ScoredTick {
   Vec force_N;
-  Vec contact_N;  // the part of it that is contact (contact_quality.hpp)
+  Vec contact_N;        // the part of it that is contact (contact_quality.hpp)
+  double turn_rad = 0;  // of that since the tick before, without what a texture states
   Vec motor_N;
   Vec device_m;        // true, or as the encoders have it
   double depth_m = 0;  // hand to proxy, or penetration
@@ -23,8 +24,9 @@ struct ScoreSettings {
   double rate_Hz = 1000, force_limit_N = 8, tool_radius_m = 0.003, stiffness_N_per_m = 800;
 };
 
-/// `device_m`: the device's position, as the encoders have it or the true one.
-ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings);
+/// `device_m`: the device's position, as the encoders have it or the true one. `turn`: of this run.
+ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings,
+                  ContactTurn& turn);
 
 // Bars of any run.
 constexpr double kMaxTurn_deg = 20;      // of the force in a tick
@@ -51,6 +53,8 @@ double stored_J(const ScoreSettings& settings, double depth_m);
 
 /// Angle between two forces; 0 where one is too small to have a direction.
 double turn_rad(Vec a_N, Vec b_N);
+/// Turn of contact between two ticks, or 0 as above.
+double turn_rad(const ScoredTick& before, const ScoredTick& now);
 
 Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settings);
 

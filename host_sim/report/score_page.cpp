@@ -89,9 +89,8 @@ std::string score_page(const std::string& title, const std::vector<ScoreRow>& ro
   const size_t count = ticks.size();
   const double seconds = static_cast<double>(count) / settings.rate_Hz;
   page += drawn("Force", "N", count, seconds, [&](size_t i) { return norm(ticks[i].force_N); });
-  page += drawn("Turn of contact in a tick", "degrees", count, seconds, [&](size_t i) {
-    return i == 0 ? 0 : kDegrees * turn_rad(ticks[i - 1].contact_N, ticks[i].contact_N);
-  });
+  page += drawn("Turn of contact in a tick", "degrees", count, seconds,
+                [&](size_t i) { return i == 0 ? 0 : kDegrees * turn_rad(ticks[i - 1], ticks[i]); });
   double work_J = 0;
   page += drawn("Work of the motors and energy stored", "mJ", count, seconds, [&](size_t i) {
     if (i > 0) work_J += dot(ticks[i - 1].motor_N, ticks[i].device_m - ticks[i - 1].device_m);

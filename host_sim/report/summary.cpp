@@ -108,6 +108,7 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       tool_(environment.tool(), static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       facts_(facts),
+      turn_(&environment),
       quality_(facts.rate_Hz, parameter_value(scenario, params::kForceLimit)),
       stiffness_N_per_m_(parameter_value(scenario, params::kContactStiffness)) {
   add_oracles();
@@ -197,7 +198,8 @@ void Summariser::add(const RunTick& tick) {
   summary_.forced_wall_ticks += (out.state & record::kStateWallForced) != 0 ? 1u : 0u;
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
-  quality_.add(force_N, contact_force_N(out, stiffness_N_per_m_), is_on);
+  const Vec contact_N = contact_force_N(out, stiffness_N_per_m_);
+  quality_.add(force_N, contact_N, turn_.add_rad(out, contact_N), is_on);
   if (is_on && norm(force_N) > kAtLimit * summary_.force_limit_N) ++summary_.limit_ticks;
   const double load = record.input.last_work_us * 1e-6 * facts_.rate_Hz;
   load_ += load;

@@ -93,6 +93,7 @@ class Summariser {
   double size_m_ = 0;  // that tolerances refer to
   const RunFacts& facts_;
   Summary summary_;
+  ContactTurn turn_;
   ContactQuality quality_;
   double stiffness_N_per_m_;
   size_t stride_ = 1;  // ticks from one checked certificate to the next

@@ -14,18 +14,48 @@ namespace {
 
 constexpr double kRate_Hz = 1000, kLimit_N = 8, kPi = 3.14159265358979323846;
 
+// A meter, and the turns of its contact.
+struct Meter : ContactQuality {
+  host_sim::ContactTurn turn;
+  Meter() : ContactQuality(kRate_Hz, kLimit_N) {}
+  void take(const record::TickOutput& out, bool motors_are_on = true) {
+    const Vec contact_N = host_sim::contact_force_N(out, 1000);
+    add(host_sim::wide(out.force_N), contact_N, turn.add_rad(out, contact_N), motors_are_on);
+  }
+};
+
 // A tick without a guide.
-void add(ContactQuality& meter, Vec force_N, bool motors_are_on = true) {
-  meter.add(force_N, force_N, motors_are_on);
+void add(Meter& meter, Vec force_N, bool motors_are_on = true) {
+  meter.add(force_N, force_N, meter.turn.add_rad({}, force_N), motors_are_on);
 }
 
 // One second of a force of 2 N along z with a sine of `amplitude_N` on it.
-ContactQuality after_sine(double frequency_Hz, double amplitude_N, bool motors_are_on = true) {
-  ContactQuality meter(kRate_Hz, kLimit_N);
+Meter after_sine(double frequency_Hz, double amplitude_N, bool motors_are_on = true) {
+  Meter meter;
   for (int i = 0; i < 1000; ++i)
     add(meter, {0, 0, 2 + amplitude_N * std::sin(2 * kPi * frequency_Hz * i / kRate_Hz)},
         motors_are_on);
   return meter;
+}
+
+constexpr double kLength_m = 1e-3, kSlope = 0.7;
+
+// A mesh at the origin whose material 1 has waves along x.
+host_sim::Environment environment_of_waves() {
+  host_sim::Environment environment({host_sim::PlacedMesh{}}, {}, {}, {});
+  environment.name_materials({"waves", "smooth"});
+  environment.set_textures(
+      {{{{{static_cast<float>(1 / kLength_m), 0, 0}, static_cast<float>(kSlope * kLength_m / kPi)},
+         {}}},
+       {}});
+  return environment;
+}
+
+record::TickOutput touching(uint32_t material, double x_m) {
+  record::TickOutput out{};
+  out.state = record::kStateProxy | record::kStateContact | material << record::kStateMaterialShift;
+  out.position_m[0] = static_cast<float>(x_m);
+  return out;
 }
 
 // A tick pressed 2 mm deep along z on a spring of 1,000 N/m, and pulled back by a guide.
@@ -41,7 +71,7 @@ record::TickOutput guided(float x_N, float z_N) {
 }  // namespace
 
 TEST(Chatter_FastSine_IsItsRootMeanSquare) {
-  const ContactQuality meter = after_sine(200, 1);
+  const Meter meter = after_sine(200, 1);
   CHECK_LT(std::fabs(meter.chatter_N() - std::sqrt(0.5)), 0.02);
   CHECK_LT(0.9, meter.chatter_s());
 }
@@ -57,14 +87,14 @@ TEST(Chatter_MotorsOff_IsZero) { CHECK(!(after_sine(200, 4, false).chatter_N() >
 
 // The trial that every card called good: a force between 0 and 8 N for 4 s.
 TEST(Chatter_LimitCycleOfHalfTheRate_IsLong) {
-  ContactQuality meter(kRate_Hz, kLimit_N);
+  Meter meter;
   for (int i = 0; i < 4000; ++i) add(meter, {0, 0, i % 8 < 4 ? 8.0 : 0.0});
   CHECK_LT(3.5, meter.chatter_N());
   CHECK_LT(3.8, meter.chatter_s());
 }
 
 TEST(Turn_IsTheLargestAngleBetweenTwoTicks) {
-  ContactQuality meter(kRate_Hz, kLimit_N);
+  Meter meter;
   for (const double angle_rad : {0.0, 0.1, 0.35, 0.4}) {
     const Vec force_N{std::cos(angle_rad), 0, std::sin(angle_rad)};
     add(meter, force_N);
@@ -74,7 +104,7 @@ TEST(Turn_IsTheLargestAngleBetweenTwoTicks) {
 
 // Next to nothing has no direction: 5 % of the limit.
 TEST(Turn_OfAFaintForce_IsLeftOut) {
-  ContactQuality meter(kRate_Hz, kLimit_N);
+  Meter meter;
   add(meter, {0.3, 0, 0});
   add(meter, {0, 0.3, 0});
   CHECK(!(meter.turn_rad() > 0));
@@ -83,20 +113,66 @@ TEST(Turn_OfAFaintForce_IsLeftOut) {
 // Guide and contact that pull against each other leave little of either, of any direction. Only
 // what the contact does is a turn of contact; what the guide does is a step of the guide.
 TEST(Turn_GuideCancelsContact_IsTheContactsOwn) {
-  ContactQuality meter(kRate_Hz, kLimit_N);
-  const auto take = [&](const record::TickOutput& out) {
-    meter.add(host_sim::wide(out.force_N), host_sim::contact_force_N(out, 1000), true);
-  };
-  take(guided(0, 0.5f));
-  take(guided(0.5f, 0));
-  take(guided(0, -0.5f));
+  Meter meter;
+  meter.take(guided(0, 0.5f));
+  meter.take(guided(0.5f, 0));
+  meter.take(guided(0, -0.5f));
   CHECK_LT(meter.turn_rad(), 1e-9);
   CHECK_LT(std::fabs(meter.guide_step_N() - std::sqrt(0.5)), 1e-9);
   record::TickOutput turned = guided(0, -0.5f);
   turned.proxy_m[0] = 0.002f;
-  take(turned);
+  meter.take(turned);
   CHECK_LT(std::fabs(meter.turn_rad() - kPi / 4), 1e-9);
   CHECK_LT(std::fabs(meter.guide_step_N() - 2), 1e-6);
+}
+
+// Steep waves under a tool that goes on by half of one: the force turns by 70 degrees, as n + slope
+// says. A wall that the tool leaves in the same tick turns it, too: that is not the texture's.
+TEST(Turn_OfATexture_IsLeftOut_AndOfAWallBesideItIsNot) {
+  const host_sim::Environment environment = environment_of_waves();
+  const Vec wall{0, 0.6, 0.8};
+  for (const double share : {1.0, 0.5})
+    for (const Vec& first : {Vec{0, 0, 1}, wall}) {
+      host_sim::ContactTurn turn(&environment), plain;
+      double found_rad = 0, plain_rad = 0;
+      for (const double waves : {-0.25, 0.25}) {
+        const record::TickOutput out = touching(1, waves * kLength_m);
+        const Vec n = waves < 0 ? first : Vec{0, 0, 1};
+        const Vec contact_N = (n + Vec{share * kSlope * std::sin(2 * kPi * waves), 0, 0}) * 2;
+        found_rad = turn.add_rad(out, contact_N);
+        plain_rad = plain.add_rad(out, contact_N);
+      }
+      if (first.y > 0) {
+        CHECK_LT(std::fabs(found_rad - std::asin(0.6)), 0.05);
+        continue;
+      }
+      CHECK_LT(found_rad, 1e-5);
+      CHECK_LT(std::fabs(plain_rad - 2 * std::atan(share * kSlope)), 1e-5);
+    }
+}
+
+// Another material without waves, none, and free motion: no texture.
+TEST(Turn_WhereNoTextureIsTouched_IsWhole) {
+  const host_sim::Environment environment = environment_of_waves();
+  for (const uint32_t material : {0u, 2u, 255u}) {
+    host_sim::ContactTurn turn(&environment);
+    turn.add_rad(touching(material, -0.25 * kLength_m), {-kSlope, 0, 1});
+    CHECK_LT(std::fabs(turn.add_rad(touching(material, 0.25 * kLength_m), {kSlope, 0, 1}) -
+                       2 * std::atan(kSlope)),
+             1e-12);
+  }
+}
+
+// Behind a border the texture of the material before goes on, with a share.
+TEST(Turn_BehindABorder_IsThatOfTheTextureBefore) {
+  const host_sim::Environment environment = environment_of_waves();
+  host_sim::ContactTurn turn(&environment);
+  turn.add_rad(touching(1, -0.25 * kLength_m), {-0.75 * kSlope, 0, 1});
+  CHECK_LT(turn.add_rad(touching(2, 0.25 * kLength_m), {0.75 * kSlope, 0, 1}), 1e-5);
+  CHECK_LT(turn.add_rad(touching(2, -0.25 * kLength_m), {-0.74 * kSlope, 0, 1}), 0.02);
+  turn.add_rad({}, {0, 0, 1});  // let go
+  turn.add_rad(touching(2, 0.25 * kLength_m), {kSlope, 0, 1});
+  CHECK_GE(turn.add_rad(touching(2, -0.25 * kLength_m), {-kSlope, 0, 1}), 1.0);
 }
 
 TEST(Turn_WithoutProxyOrGuide_IsOfTheWholeForce) {

@@ -29,7 +29,12 @@ std::vector<Vec> sines(double frequency_Hz, size_t count) {
 // Pressed 2 mm deep on a spring along z, at rest.
 std::vector<ScoredTick> pressed(size_t count) {
   return std::vector<ScoredTick>(count,
-                                 {{0, 0, 2}, {0, 0, 2}, {0, 0, 2}, {0, 0, -0.002}, 0.002, true});
+                                 {{0, 0, 2}, {0, 0, 2}, 0, {0, 0, 2}, {0, 0, -0.002}, 0.002, true});
+}
+
+void add_turns(std::vector<ScoredTick>& ticks) {
+  host_sim::ContactTurn turn;
+  for (ScoredTick& tick : ticks) tick.turn_rad = turn.add_rad({}, tick.contact_N);
 }
 
 }  // namespace
@@ -61,7 +66,7 @@ TEST(Score_Energy_IsWorkPlusWhatTheSpringHolds) {
   std::vector<ScoredTick> ticks;
   const auto add = [&](double depth_m, double force_N) {
     const Vec force{0, 0, force_N};
-    ticks.push_back({force, force, force, {0, 0, -depth_m}, depth_m, true});
+    ticks.push_back({force, force, 0, force, {0, 0, -depth_m}, depth_m, true});
   };
   // The mean force of a step does the work of a spring in it.
   for (int i = 0; i < 20; ++i) add(i * 1e-4, (i + 0.5) * 1e-1);
@@ -86,6 +91,7 @@ TEST(Score_ContactThatTurnsAndLetsGo_IsCounted) {
   ticks[2].force_N = {0, 0.01, 0};  // no direction
   ticks[3].force_N = {0, 8, 0};
   for (ScoredTick& tick : ticks) tick.contact_N = tick.force_N;
+  add_turns(ticks);
   const Score score = score_of(ticks, kSettings);
   CHECK_LT(std::fabs(score.turn_rad - kPi / 2), 1e-12);
   CHECK(score.let_go == 1);
@@ -100,6 +106,7 @@ TEST(Score_SpringThatFollowsTheTool_NeitherTurnsNorLetsGo) {
   for (ScoredTick& tick : ticks) tick.contact_N = tick.force_N;
   ticks[1].contact_N = {0.4, 0, 0};
   ticks[2].contact_N = {};
+  add_turns(ticks);
   const auto move = [&](double part) {
     for (size_t i = 1; i < 3; ++i) {
       const double change_N = host_sim::norm(ticks[i].contact_N - ticks[i - 1].contact_N);
