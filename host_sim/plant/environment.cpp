@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "firmtouch/mesh/closest_point.hpp"
-#include "firmtouch/scene/texture.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 
 namespace firmtouch::host_sim {
@@ -65,6 +64,10 @@ uint32_t Environment::triangle_count() const {
   uint32_t count = 0;
   for (const PlacedMesh& placed : meshes_) count += placed.mesh.head().triangle_count;
   return count;
+}
+
+scene::Stiffening Environment::stiffening() const {
+  return scene::stiffening_of({textures_.data(), static_cast<uint32_t>(textures_.size())});
 }
 
 Vec Environment::texture_slope(uint32_t material, Vec tool_m) const {

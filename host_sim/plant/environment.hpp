@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "firmtouch/scene/texture.hpp"
 #include "firmtouch/scene/tool_layout.hpp"
 #include "firmtouch/spline/view.hpp"
 #include "host_sim/plant/placed_mesh.hpp"
@@ -48,6 +49,7 @@ class Environment {
   void name_materials(std::vector<std::string> names) { materials_ = std::move(names); }
   /// One a material, or none.
   void set_textures(std::vector<scene::TextureLayout> textures) { textures_ = std::move(textures); }
+  scene::Stiffening stiffening() const;
   /// Slope of the texture of a material, from 1, that the tool has in the device frame; 0: none.
   Vec texture_slope(uint32_t material, Vec tool_m) const;
   const spline::View& surface() const { return surface_; }

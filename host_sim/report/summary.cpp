@@ -61,14 +61,18 @@ void count(Summary& summary, const record::TickOutput& out, uint64_t& visits, do
 constexpr uint32_t kHomingBits = record::kStateWallRefused - record::kStateNotHomed;
 
 std::string walls_text(const Summary& s) {
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "%s in %zu ticks: stable are contact to %.0f N/m and the guide to %.0f N/m; lower "
-                "the stiffness or raise the damping%s",
-                s.refused_wall_ticks > 0 ? "REFUSED, motors off," : "forced",
-                s.refused_wall_ticks + s.forced_wall_ticks, s.stable_contact_N_per_m,
-                s.stable_guide_N_per_m,
-                s.refused_wall_ticks > 0 ? "; or bake the device with `walls forced`" : "");
+  char text[384], texture[128] = "";
+  if (s.stable_texture_N > 0)
+    std::snprintf(texture, sizeof texture,
+                  ", and the texture, which only device_damping damps, to a force_limit of %.2f N",
+                  s.stable_texture_N);
+  std::snprintf(
+      text, sizeof text,
+      "%s in %zu ticks: stable are contact to %.0f N/m and the guide to %.0f N/m%s; lower "
+      "the stiffness or raise the damping%s",
+      s.refused_wall_ticks > 0 ? "REFUSED, motors off," : "forced",
+      s.refused_wall_ticks + s.forced_wall_ticks, s.stable_contact_N_per_m, s.stable_guide_N_per_m,
+      texture, s.refused_wall_ticks > 0 ? "; or bake the device with `walls forced`" : "");
   return text;
 }
 
@@ -124,7 +128,11 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
               mass_kg, static_cast<float>(parameter_value(scenario, damping)),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))));
         };
-    summary_.stable_contact_N_per_m = limit(params::kContactDamping);
+    const scene::Stiffening by = environment.stiffening();
+    summary_.stable_contact_N_per_m =
+        limit(params::kContactDamping) / static_cast<double>(by.share);
+    if (by.per_m > 0)
+      summary_.stable_texture_N = limit(params::kDeviceDamping) / static_cast<double>(by.per_m);
     summary_.stable_guide_N_per_m = limit(params::kGuideDamping);
   }
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);

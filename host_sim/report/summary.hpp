@@ -45,6 +45,7 @@ struct Summary {
   // Ticks that enabled beside a wall that is stiffer than stable, and what would have been stable.
   size_t refused_wall_ticks = 0, forced_wall_ticks = 0;
   double stable_contact_N_per_m = 0, stable_guide_N_per_m = 0;  // of a linkage
+  double stable_texture_N = 0;  // the force up to which its textures are; 0: it has none
   // How it feels (report/contact_quality.hpp), while the motors were on.
   double tool_radius_m = 0;
   bool has_proxy = false;  // which has a way out at any depth

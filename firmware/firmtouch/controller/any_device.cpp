@@ -86,19 +86,32 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
   return reading;
 }
 
+bool AnyDevice::is_stable(const Values& values, float stiffness_N_per_m,
+                          params::Index damping) const {
+  return stiffness_N_per_m <= device::stiffest_stable_N_per_m(linkage_.layout().least_mass_kg,
+                                                              values[damping],
+                                                              values[params::kTickPeriod]);
+}
+
+uint32_t AnyDevice::refused_wall() const {
+  return (linkage_.layout().flags & device::kFlagForcedWalls) != 0 ? record::kStateWallForced
+                                                                   : record::kStateWallRefused;
+}
+
 uint32_t AnyDevice::wall_state(const Values& values) const {
-  if (!linkage_.is_open() || !(linkage_.layout().least_mass_kg > 0.0f)) return 0;
-  const device::LinkageLayout& layout = linkage_.layout();
-  const auto is_stable = [&](params::Index stiffness, params::Index damping) {
-    return values[stiffness] <= device::stiffest_stable_N_per_m(layout.least_mass_kg,
-                                                                values[damping],
-                                                                values[params::kTickPeriod]);
-  };
-  if (is_stable(params::kContactStiffness, params::kContactDamping) &&
-      is_stable(params::kGuideStiffness, params::kGuideDamping))
+  if (!knows_walls()) return 0;
+  if (is_stable(values, values[params::kContactStiffness], params::kContactDamping) &&
+      is_stable(values, values[params::kGuideStiffness], params::kGuideDamping))
     return 0;
-  return (layout.flags & device::kFlagForcedWalls) != 0 ? record::kStateWallForced
-                                                        : record::kStateWallRefused;
+  return refused_wall();
+}
+
+uint32_t AnyDevice::texture_state(const Values& values, scene::Stiffening by) const {
+  if (!knows_walls() || !(by.per_m > 0.0f)) return 0;
+  if (is_stable(values, values[params::kContactStiffness] * by.share, params::kContactDamping) &&
+      is_stable(values, values[params::kForceLimit] * by.per_m, params::kDeviceDamping))
+    return 0;
+  return refused_wall();
 }
 
 // The weight is taken up over ramp_in_s, and let go as fast as a force ramps out. The motors hold

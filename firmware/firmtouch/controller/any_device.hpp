@@ -2,6 +2,7 @@
 #include "firmtouch/controller/cartesian_device.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
 #include "firmtouch/device/stored_linkage.hpp"
+#include "firmtouch/scene/texture.hpp"
 
 namespace firmtouch {
 
@@ -50,6 +51,9 @@ class AnyDevice : public DevicePolicy {
   /// wall's damping; the device's own would only help. An asset without that mass passes.
   static constexpr bool kKnowsWalls = true;
   uint32_t wall_state(const params::Values& values) const;
+  /// The same of textures (scene/texture.hpp). Along them, up to force_limit, device_damping alone
+  /// has to do.
+  uint32_t texture_state(const params::Values& values, scene::Stiffening by) const;
 
   const device::StoredLinkage& linkage() const { return linkage_; }
   /// The whole section. Pre: linkage().is_open().
@@ -67,6 +71,10 @@ class AnyDevice : public DevicePolicy {
 
  private:
   void carry(const params::Values& values, bool is_on, float (&torque_Nm)[device::kMaxJoints]);
+  bool knows_walls() const { return linkage_.is_open() && linkage_.layout().least_mass_kg > 0.0f; }
+  bool is_stable(const params::Values& values, float stiffness_N_per_m,
+                 params::Index damping) const;
+  uint32_t refused_wall() const;
   void allow_rise(const device::JointTorques& wanted, float tick_s,
                   float (&most_Nm)[device::kMaxJoints]) const;
 

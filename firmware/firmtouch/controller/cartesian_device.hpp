@@ -30,7 +30,8 @@ struct DevicePolicy {
   /// True: the device has a `bool is_homed() const` and a `bool has_failed() const`, valid after
   /// read(). Until it is homed no force is rendered, and may_push lets it home itself.
   static constexpr bool kHomes = false;
-  /// True: the device has a `uint32_t wall_state(const params::Values&) const`: 0, or one of
+  /// True: the device has a `uint32_t wall_state(const params::Values&) const`, and for surfaces
+  /// with textures a texture_state(values, scene::Stiffening): 0, or one of
   /// record::kStateWallRefused and kStateWallForced.
   static constexpr bool kKnowsWalls = false;
   /// True: the device has a `bool encoders_agree(const device::Sample&, uint32_t flags)`, which a

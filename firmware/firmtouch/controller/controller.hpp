@@ -105,7 +105,9 @@ class Controller {
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
     if constexpr (Device::kKnowsWalls)
       if ((input.flags & record::kFlagEnable) != 0) {
-        const uint32_t wall = device.wall_state(core_.values());
+        uint32_t wall = device.wall_state(core_.values());
+        if constexpr (SurfaceList::kHasTextures)
+          wall |= device.texture_state(core_.values(), scene().surfaces.stiffening());
         output.state |= wall;
         if ((wall & record::kStateWallRefused) != 0) core_.disarm(tick);
       }

@@ -5,6 +5,7 @@
 #include "firmtouch/controller/model.hpp"
 #include "firmtouch/core/one_of.hpp"
 #include "firmtouch/params/compose.hpp"
+#include "firmtouch/scene/texture.hpp"
 
 namespace firmtouch {
 
@@ -79,6 +80,9 @@ struct MovingSurface {};
 /// Base of those that turn the handle of a tool: they have begin_torque() and put_torque(), too.
 struct TorqueSurface : MovingSurface {};
 
+/// Base of those that may have textures: they have a stiffening().
+struct TexturedSurface {};
+
 /// The surfaces of a controller: the first that the asset has is touched.
 template <class... Policies>
 class Surfaces : public FirstOf<Policies...> {
@@ -88,6 +92,7 @@ class Surfaces : public FirstOf<Policies...> {
   static constexpr bool kIsGuide = false;
   using Parameters = params::Joined<typename Policies::Parameters...>;
 
+  static constexpr bool kHasTextures = (__is_base_of(TexturedSurface, Policies) || ...);
   static constexpr bool kMoves = (__is_base_of(MovingSurface, Policies) || ...);
   static constexpr bool kHasTorque = (__is_base_of(TorqueSurface, Policies) || ...);
 
@@ -101,6 +106,12 @@ class Surfaces : public FirstOf<Policies...> {
     use_moving([&](auto& surface) { is_taken = surface.take_command(command, value); });
     return is_taken;
   }
+  /// Of the surface that has textures, if the asset has it.
+  scene::Stiffening stiffening() {
+    scene::Stiffening by;
+    this->use_open([&](auto& surface) { stiffen(surface, by); });
+    return by;
+  }
   void advance(float passed_s) {
     use_moving([&](auto& surface) { surface.advance(passed_s); });
   }
@@ -113,6 +124,10 @@ class Surfaces : public FirstOf<Policies...> {
   }
 
  private:
+  template <class P>
+  static void stiffen(const P& surface, scene::Stiffening& by) {
+    if constexpr (__is_base_of(TexturedSurface, P)) by = surface.stiffening();
+  }
   template <class Use>
   void use_moving(const Use& use) {
     this->use_open([&](auto& surface) { use_if_it_moves(surface, use); });

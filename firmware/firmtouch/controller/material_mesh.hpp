@@ -1,4 +1,5 @@
 #pragma once
+#include "firmtouch/controller/first_of.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
 #include "firmtouch/scene/material_touch.hpp"
 #include "firmtouch/scene/mesh_touched.hpp"
@@ -14,7 +15,7 @@ using MaterialsLoader =
 /// mesh without materials the same bits as MeshWith<Others...>. With textures the record's proxy_m
 /// is the place that the spring pulls to, about the height below the proxy; so is its certificate.
 template <class... Others>
-class MaterialMeshWith : public MeshWith<Others..., MaterialsLoader> {
+class MaterialMeshWith : public MeshWith<Others..., MaterialsLoader>, public TexturedSurface {
   using Mesh = MeshWith<Others..., MaterialsLoader>;
 
  public:
@@ -24,6 +25,7 @@ class MaterialMeshWith : public MeshWith<Others..., MaterialsLoader> {
   const scene::StoredMaterials& materials() const {
     return this->template get<MaterialsLoader>().view();
   }
+  scene::Stiffening stiffening() const { return materials().stiffening(); }
   void reset() {
     Mesh::reset();
     state_ = {};

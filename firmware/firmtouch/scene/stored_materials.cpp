@@ -49,6 +49,7 @@ Verdict MaterialsProof::take(const MaterialSections& sections, const mesh::View&
   view.textures_ = core::as_whole_array<TextureLayout>(sections.textures);
   const bool has_textures = sections.textures.size() > 0;
   if (has_textures && view.textures_.size() != table.size()) return reject(kRuleTextureCount);
+  view.stiffening_ = stiffening_of(view.textures_);
   view.table_ = table;
   return core::kPassed;
 }

@@ -3,7 +3,7 @@
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/query/staged_check.hpp"
-#include "firmtouch/scene/materials_layout.hpp"
+#include "firmtouch/scene/texture.hpp"
 
 namespace firmtouch::scene {
 
@@ -27,6 +27,7 @@ class StoredMaterials {
   core::Span<const MaterialLayout> table() const { return table_; }
   /// One a material, or none.
   core::Span<const TextureLayout> textures() const { return textures_; }
+  const Stiffening& stiffening() const { return stiffening_; }
   /// Of a triangle: 1 + its place in the table; 0: none, also where nothing is open.
   /// Pre: the triangle is one of the mesh.
   uint8_t of(uint32_t triangle) const { return is_open() ? triangles_[triangle] : uint8_t{0}; }
@@ -36,6 +37,7 @@ class StoredMaterials {
   core::Span<const MaterialLayout> table_;
   core::Span<const TextureLayout> textures_;
   core::Bytes triangles_;
+  Stiffening stiffening_;
 };
 
 /// What Opening proves of materials: rules R821 to R828 of tools/FORMAT.md.

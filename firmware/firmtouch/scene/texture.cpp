@@ -21,4 +21,21 @@ Cut cut_at(const TextureLayout& texture, math::Vec3 x_m) {
   return cut;
 }
 
+Stiffening stiffening_of(core::Span<const TextureLayout> textures) {
+  constexpr float kPi = 3.14159274f;
+  Stiffening most;
+  for (const TextureLayout& texture : textures) {
+    float slope = 0, per_m = 0;
+    for (const WaveLayout& wave : texture.wave) {
+      const math::Vec3 turns{wave.per_m[0], wave.per_m[1], wave.per_m[2]};
+      const float square = math::dot(turns, turns);
+      slope += kPi * wave.height_m * math::square_root(square);
+      per_m += 2.0f * kPi * kPi * wave.height_m * square;
+    }
+    most.share = math::larger((1.0f + slope) * (1.0f + slope), most.share);
+    most.per_m = math::larger(per_m, most.per_m);
+  }
+  return most;
+}
+
 }  // namespace firmtouch::scene
