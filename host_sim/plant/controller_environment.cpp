@@ -48,8 +48,10 @@ Environment environment_of(const ToolController& controller, Vec origin_m) {
   for (const scene::MaterialLayout& material : controller.materials().table())
     materials.emplace_back(material.name);
   environment.name_materials(std::move(materials));
-  const core::Span<const scene::TextureLayout> textures = controller.materials().textures();
-  environment.set_textures({textures.begin(), textures.end()});
+  const auto copy_of = [](const auto& span) { return std::vector(span.begin(), span.end()); };
+  const scene::StoredMaterials& stored = controller.materials();
+  environment.set_textures(copy_of(stored.textures()), copy_of(stored.reliefs()),
+                           copy_of(stored.samples()));
   const scene::StoredTool& spheres = controller.tool().spheres();
   environment.set_tool({spheres.begin(), spheres.end()});
   return environment;

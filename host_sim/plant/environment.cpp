@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/scene/relief.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 
 namespace firmtouch::host_sim {
@@ -66,15 +67,28 @@ uint32_t Environment::triangle_count() const {
   return count;
 }
 
+void Environment::set_textures(std::vector<scene::TextureLayout> textures,
+                               std::vector<scene::ReliefLayout> reliefs,
+                               std::vector<uint8_t> samples) {
+  textures_ = std::move(textures);
+  reliefs_ = std::move(reliefs);
+  samples_ = std::move(samples);
+}
+
 scene::Stiffening Environment::stiffening() const {
-  return scene::stiffening_of({textures_.data(), static_cast<uint32_t>(textures_.size())});
+  return scene::stiffening_of({textures_.data(), static_cast<uint32_t>(textures_.size())},
+                              {reliefs_.data(), static_cast<uint32_t>(reliefs_.size())});
 }
 
 Vec Environment::texture_slope(uint32_t material, Vec tool_m) const {
-  if (material == 0 || material > textures_.size()) return {};
+  if (material == 0) return {};
   const PlacedMesh& placed = meshes_.front();
-  return placed.turned(
-      wide(scene::cut_at(textures_[material - 1], tools::to_vec3(placed.to_own(tool_m))).slope));
+  const math::Vec3 at_m = tools::to_vec3(placed.to_own(tool_m));
+  scene::Cut cut;
+  if (material <= textures_.size()) cut = scene::cut_at(textures_[material - 1], at_m);
+  if (material <= reliefs_.size())
+    scene::add_relief(reliefs_[material - 1], samples_.data(), at_m, cut);
+  return placed.turned(wide(cut.slope));
 }
 
 Vec Environment::guide_at(double arc_m) const {

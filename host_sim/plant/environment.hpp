@@ -48,7 +48,9 @@ class Environment {
   const std::vector<std::string>& materials() const { return materials_; }
   void name_materials(std::vector<std::string> names) { materials_ = std::move(names); }
   /// One a material, or none.
-  void set_textures(std::vector<scene::TextureLayout> textures) { textures_ = std::move(textures); }
+  void set_textures(std::vector<scene::TextureLayout> textures,
+                    std::vector<scene::ReliefLayout> reliefs = {},
+                    std::vector<uint8_t> samples = {});
   scene::Stiffening stiffening() const;
   /// Slope of the texture of a material, from 1, that the tool has in the device frame; 0: none.
   Vec texture_slope(uint32_t material, Vec tool_m) const;
@@ -66,6 +68,8 @@ class Environment {
   std::vector<PlacedMesh> meshes_;
   std::vector<std::string> materials_;
   std::vector<scene::TextureLayout> textures_;
+  std::vector<scene::ReliefLayout> reliefs_;
+  std::vector<uint8_t> samples_;  // of the maps
   spline::View surface_;
   Tessellation tessellation_;
   bool normals_inward_ = false;

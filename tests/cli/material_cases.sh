@@ -44,6 +44,36 @@ WavesOfAMaterialAreBaked() {
   f info grid.fta; printf '%s\n' "$out" | grep -q 'section 1013 *64 bytes' || fail "not two textures: $out"
 }
 
+# A picture of 4 by 4 that is white except one dark sample.
+pgm() { printf 'P2\n# a dot\n%s\n255\n255 255 255 255 255 200 255 255 255 255 255 255 255 255 255 %s\n' "${1:-4 4}" "${2:-255}"; }
+
+HeightMapsOfMaterialsAreBaked() {
+  box_obj usemtl >box.obj; mkdir -p looks; pgm >looks/dot.pgm
+  printf 'material side\nmaterial lid map dot.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0 waves 0.1 mm every 2 mm along 1 0 0\n' >looks/dots.txt
+  bake box.obj -o dots.fta --materials looks/dots.txt
+  f info dots.fta
+  printf '%s\n' "$out" | grep -q 'section 1014 *88 bytes' || fail "not two maps: $out"
+  printf '%s\n' "$out" | grep -q 'section 1015 *16 bytes' || fail "not 16 samples: $out"
+  # As bytes it is the same picture.
+  { printf 'P5 4 4 255\n'; printf '\377\377\377\377\377\310'; printf '\377\377\377\377\377\377\377\377\377\377'; } >binary.pgm
+  mv looks/dot.pgm text.pgm; cp binary.pgm looks/dot.pgm
+  bake box.obj -o same.fta --materials looks/dots.txt
+  cmp -s dots.fta same.fta || fail 'P2 and P5 differ'
+  map() { printf 'material side\nmaterial lid map %s\n' "$2" >map.txt; f bake box.obj --materials map.txt -o bad.fta; exits 3; says "$1"; absent bad.fta; }
+  map 'none.pgm: cannot be opened' 'none.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  map 'box.obj: is no PGM picture' 'box.obj 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  pgm '4 5' >wide.pgm; map 'wide.pgm: is 4 by 5; scale it' 'wide.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  pgm '8 8' >short.pgm; map 'short.pgm: a number of the picture is missing' 'short.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  pgm '4 4' 256 >bright.pgm; map 'bright.pgm: sample 15 of 16 is missing or above 255' 'bright.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  head -c 20 binary.pgm >cut.pgm; map 'cut.pgm: sample 9 of 16 is missing' 'cut.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  sed 's/^255$/65535/' text.pgm >deep.pgm; map 'deep.pgm: its white is 65535' 'deep.pgm 0.2 mm every 4 mm along 1 0 0 and 0 1 0'
+  map 'the texture is up to' 'text.pgm 0.2 mm every 0.2 mm along 1 0 0 and 0 1 0'
+  map '`map` = ' 'text.pgm 2.1 mm every 400 mm along 1 0 0 and 0 1 0'
+  map 'a map along 0 0 0 has no direction' 'text.pgm 0.2 mm every 4 mm along 1 0 0 and 0 0 0'
+  map 'the line ends where `and` is expected' 'text.pgm 0.2 mm every 4 mm along 1 0 0'
+  map 'the line ends where' ''
+}
+
 MaterialsThatDoNotFitAreRefusedByName() {
   box_obj usemtl >box.obj; feel >feel.txt
   refuse() {  # refuse TEXT ARGUMENT...

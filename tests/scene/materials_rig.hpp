@@ -48,7 +48,8 @@ struct MaterialsRig {
   // `number_at`: of the material where a face has its middle.
   MaterialsRig(tools::Surface surface, std::vector<scene::MaterialLayout> table,
                const std::function<uint8_t(Vec3)>& number_at,
-               std::vector<scene::TextureLayout> textures = {}) {
+               std::vector<scene::TextureLayout> textures = {},
+               std::vector<scene::ReliefLayout> reliefs = {}, std::vector<uint8_t> samples = {}) {
     for (const tools::Face& face : surface.faces)
       surface.material.push_back(number_at(
           (surface.vertices[face[0]] + surface.vertices[face[1]] + surface.vertices[face[2]]) *
@@ -57,6 +58,8 @@ struct MaterialsRig {
     tools::MeshOptions options;
     options.materials = std::move(table);
     options.textures = std::move(textures);
+    options.reliefs = std::move(reliefs);
+    options.samples = std::move(samples);
     sections = tools::bake_mesh(surface, "shape", options, report);
     CHECK(report.problem.empty());
     CHECK(tools::open_baked(sections, "shape", view).ok());

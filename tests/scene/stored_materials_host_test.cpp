@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/scene/texture.hpp"
+#include "firmtouch/scene/relief.hpp"
 #include "harness/test.hpp"
 #include "scene/proxy_rig.hpp"
 
@@ -19,7 +19,8 @@ struct Stored {
   scene_test::ProxyRig rig{scene_test::plate(0.01f)};
   std::vector<MaterialLayout> table;
   std::vector<scene::TextureLayout> textures;
-  std::vector<uint8_t> triangles;
+  std::vector<scene::ReliefLayout> reliefs;
+  std::vector<uint8_t> triangles, samples;
 
   explicit Stored(uint32_t count = 2) {
     for (uint32_t i = 0; i < count; ++i) {
@@ -34,6 +35,19 @@ struct Stored {
     for (uint32_t t = 0; t < rig.view.head().triangle_count; ++t)
       triangles.push_back(static_cast<uint8_t>(t % 3));
   }
+  // Two maps of 8 and 16 samples a side, on which the waves are lower.
+  void add_reliefs() {
+    for (uint32_t i = 0; i < table.size(); ++i) {
+      textures[i].wave[0].height_m = 0;
+      scene::ReliefLayout relief = {{500, 0, 0}, {0, 400, 300}, 1e-4f, 0, 0, 0, 8u << i};
+      relief.first = static_cast<uint32_t>(samples.size());
+      for (uint32_t k = 0; k < relief.side * relief.side; ++k)
+        samples.push_back(static_cast<uint8_t>(k % 3 * 20));
+      const scene::ReliefBounds bounds = scene::bounds_of(relief, samples.data());
+      relief.slope = bounds.slope, relief.per_m = bounds.per_m;
+      reliefs.push_back(relief);
+    }
+  }
   core::Verdict open(scene::StoredMaterials& to, uint32_t spare_bytes = 0) const {
     std::vector<uint8_t> bytes(table.size() * sizeof(MaterialLayout) + spare_bytes);
     if (!table.empty()) std::memcpy(bytes.data(), table.data(), table.size() * sizeof table[0]);
@@ -41,7 +55,10 @@ struct Stored {
     return scene::open({{held.data(), static_cast<uint32_t>(held.size())},
                         {triangles.data(), static_cast<uint32_t>(triangles.size())},
                         {reinterpret_cast<const uint8_t*>(textures.data()),
-                         static_cast<uint32_t>(textures.size() * sizeof textures[0])}},
+                         static_cast<uint32_t>(textures.size() * sizeof textures[0])},
+                        {reinterpret_cast<const uint8_t*>(reliefs.data()),
+                         static_cast<uint32_t>(reliefs.size() * sizeof reliefs[0])},
+                        {samples.data(), static_cast<uint32_t>(samples.size())}},
                        rig.view, to);
   }
   core::Verdict verdict(uint32_t spare_bytes = 0) const {
@@ -54,8 +71,9 @@ struct Stored {
 };
 
 template <class Break>
-void check_rule(uint16_t rule, uint32_t element, const Break& break_it) {
+void check_rule(uint16_t rule, uint32_t element, const Break& break_it, bool has_reliefs = false) {
   Stored stored;
+  if (has_reliefs) stored.add_reliefs();
   CHECK_EQ(stored.verdict().rule, 0u);
   break_it(stored);
   CHECK_EQ(stored.verdict().rule, rule);
@@ -113,6 +131,59 @@ TEST(StoredMaterials_EachRuleOfTexturesIsBrokenAlone) {
   Stored smooth;
   smooth.textures.clear();
   CHECK_EQ(smooth.verdict().rule, 0u);
+}
+
+TEST(StoredMaterials_EachRuleOfReliefsIsBrokenAlone) {
+  const auto check = [](uint16_t rule, uint32_t element, const auto& break_it) {
+    check_rule(rule, element, break_it, true);
+  };
+  check(scene::kRuleTextureCount, 0, [](Stored& s) { s.reliefs.pop_back(); });
+  check(scene::kRuleTextureCount, 0, [](Stored& s) { s.reliefs.push_back({}); });
+  for (const float bad : {-1e-6f, 0.0021f, NAN, INFINITY}) {
+    check(scene::kRuleTextureValue, 1, [&](Stored& s) { s.reliefs[1].height_m = bad; });
+    if (!(bad > 0 && bad < 1))
+      check(scene::kRuleTextureValue, 1, [&](Stored& s) { s.reliefs[1].slope = bad; });
+  }
+  check(scene::kRuleTextureValue, 0, [](Stored& s) { s.reliefs[0].slope = 0.75f; });  // and waves
+  check(scene::kRuleTextureValue, 0, [](Stored& s) { s.reliefs[0].per_m = INFINITY; });
+  for (const float bad : {1.1e5f, NAN, -INFINITY}) {
+    check(scene::kRuleTextureValue, 1, [&](Stored& s) { s.reliefs[1].u_per_m[2] = bad; });
+    check(scene::kRuleTextureValue, 1, [&](Stored& s) { s.reliefs[1].v_per_m[0] = bad; });
+  }
+  for (const uint32_t side : {0u, 2u, 3u, 24u, 32u, 128u, 1u << 16, UINT32_MAX})
+    check(scene::kRuleReliefSamples, 1, [&](Stored& s) { s.reliefs[1].side = side; });
+  for (const uint32_t first : {65u, 320u, 321u, UINT32_MAX})
+    check(scene::kRuleReliefSamples, 1, [&](Stored& s) { s.reliefs[1].first = first; });
+  check(scene::kRuleReliefSamples, 1, [](Stored& s) { s.samples.pop_back(); });
+  check(scene::kRuleReliefBounds, 1, [](Stored& s) { s.reliefs[1].slope *= 0.999f; });
+  check(scene::kRuleReliefBounds, 1, [](Stored& s) { s.reliefs[1].per_m *= 0.999f; });
+  check(scene::kRuleReliefBounds, 0, [](Stored& s) { s.samples[63] = 255; });
+  check(0, 0, [](Stored& s) { s.textures.clear(); });  // maps alone
+  check(0, 0, [](Stored& s) { s.reliefs[0] = {}; });   // of one material
+}
+
+// What passes is no deeper and no steeper than it may be, whatever was damaged.
+TEST(StoredMaterials_AnyByteOfAReliefDamaged_IsRefusedOrBounded) {
+  Stored stored;
+  stored.add_reliefs();
+  auto* bytes = reinterpret_cast<uint8_t*>(stored.reliefs.data());
+  uint32_t refused = 0;
+  for (uint32_t i = 0; i < 2 * sizeof(scene::ReliefLayout) + stored.samples.size(); ++i)
+    for (uint32_t flip = 1; flip < 256; flip += 2) {
+      uint8_t& byte = i < 88 ? bytes[i] : stored.samples[i - 88];
+      byte ^= static_cast<uint8_t>(flip);
+      scene::StoredMaterials materials;
+      if (!stored.open(materials).ok()) ++refused;
+      for (int k = 0; k < 20; ++k) {
+        const float at_m = 1.7e-4f * static_cast<float>(k);
+        const scene::Cut cut =
+            materials.cut_of(1u + static_cast<uint32_t>(k % 2), {at_m, -at_m, 0.1f});
+        CHECK(cut.depth_m >= 0 && cut.depth_m <= scene::kMaxTextureHeight_m * 1.0001f);
+        CHECK_LE(math::length(cut.slope), scene::kMaxTextureSlope * 1.0001f);
+      }
+      byte ^= static_cast<uint8_t>(flip);
+    }
+  CHECK_GE(refused, 10000u);
 }
 
 TEST(StoredMaterials_ReadsWhatIsStored) {

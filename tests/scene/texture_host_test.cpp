@@ -1,6 +1,6 @@
 // Texture against closed forms in double, and the work of a hand on closed ways: the sum of force
 // times way, which knows nothing of a potential.
-#include "firmtouch/scene/texture.hpp"
+#include "firmtouch/scene/relief.hpp"
 
 #include "scene/materials_rig.hpp"
 #include "surface/random.hpp"
@@ -94,6 +94,20 @@ Loops loops_of(MaterialsRig& rig, Vec3 middle_m, uint32_t count, float step_m) {
     stored_J = std::max(stored_J, work.most_N * work.most_N / (2 * kTool_N_per_m));
   }
   return {most_J / stored_J, least_J / stored_J};
+}
+
+// A hump a tile, of 1 mm; its samples are rounded to 8 bits.
+MaterialsRig with_relief(const tools::Surface& surface, float friction) {
+  scene::ReliefLayout relief = {{1000, 0, 0}, {0, 600, 800}, 8e-5f, 0, 0, 0, 16};
+  std::vector<uint8_t> samples;
+  for (int i = 0; i < 256; ++i)
+    samples.push_back(static_cast<uint8_t>(std::lround(
+        127.5 - 63.75 * (std::cos(kPi * (i % 16) / 8) + std::sin(kPi * (i / 16) / 8)))));
+  const scene::ReliefBounds bounds = scene::bounds_of(relief, samples.data());
+  relief.slope = bounds.slope, relief.per_m = bounds.per_m;
+  return MaterialsRig(
+      surface, {material("m", 1e9f, friction, friction)}, [](Vec3) { return uint8_t{1}; }, {},
+      {relief}, samples);
 }
 
 MaterialsRig gridded(const tools::Surface& surface, float friction) {
@@ -212,6 +226,14 @@ TEST(Texture_ClosedLoops_GiveNoEnergy) {
   MaterialsRig corner = gridded(two_walls(), 0), edge = gridded(two_plates(), 0);
   CHECK_LE(loops_of(corner, {-0.004f, 0, 0.003f}, 50, 5e-7f).most, 1e-6);
   CHECK_LE(loops_of(edge, {0.041f, 0, 0.003f}, 50, 5e-7f).most, 1e-6);
+}
+
+TEST(Texture_ClosedLoopsOverARelief_GiveNoEnergy) {
+  MaterialsRig corner = with_relief(two_walls(), 0), edge = with_relief(two_plates(), 0);
+  CHECK_LE(loops_of(corner, {-0.004f, 0, 0.003f}, 50, 5e-7f).most, 1e-6);
+  CHECK_LE(loops_of(edge, {0.041f, 0, 0.003f}, 50, 5e-7f).most, 1e-6);
+  CHECK_GE(scene::bounds_of(corner.materials.reliefs()[0], corner.materials.samples().data()).slope,
+           0.2f);
 }
 
 TEST(Texture_ClosedLoopsWithFriction_TakeEnergy) {

@@ -192,6 +192,8 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   mesh_options.shape = tree_for(options.purpose);
   mesh_options.materials = options.model.materials.table;
   mesh_options.textures = options.model.materials.textures;
+  mesh_options.reliefs = options.model.materials.reliefs;
+  mesh_options.samples = options.model.materials.samples;
   if (options.purpose == Purpose::kSmall) mesh_options.max_growth = 1;
   if (options.keeps_triangles || !options.has_tree) mesh_options.max_growth = 0;
   tools::MeshReport report;

@@ -73,8 +73,7 @@ void follow(const Response& wanted, float load_N, float step_N, Response& respon
 
 // What the texture in use takes off.
 Cut cut_of(const StoredMaterials& materials, const MaterialTouch& state, math::Vec3 x_m) {
-  if (state.textured == 0 || state.textured > materials.textures().size()) return {};
-  const Cut whole = cut_at(materials.textures()[state.textured - 1u], x_m);
+  const Cut whole = materials.cut_of(state.textured, x_m);
   return {whole.depth_m * state.texture_share, whole.slope * state.texture_share};
 }
 
@@ -157,7 +156,7 @@ void end_materials(const ProxyContact& contact, const MaterialMeshObject& object
   const Proxy& proxy = touch.proxy;
   const StoredMaterials& materials = *object.materials;
   const float tool_N_per_m = contact.material.stiffness_N_per_m;
-  const bool was_held = state.is_held, has_textures = !materials.textures().empty();
+  const bool was_held = state.is_held, has_textures = materials.has_textures();
   state.is_held = model.spring.is_used && proxy.is_loaded && touch.penetration_m > 0.0f;
   if (!state.is_held) {
     state = {};

@@ -12,6 +12,9 @@ constexpr uint32_t kMaterialsSection = 0x1011;          // MaterialLayout[1 to k
 constexpr uint32_t kTriangleMaterialsSection = 0x1012;  // uint8_t[triangle_count], in leaf order
 constexpr uint32_t kTexturesSection = 0x1013;           // TextureLayout[materials], or none
 
+constexpr uint32_t kReliefsSection = 0x1014;        // ReliefLayout[materials], or none
+constexpr uint32_t kReliefSamplesSection = 0x1015;  // uint8_t, of all maps
+
 constexpr uint32_t kMaxMaterials = 255;  // a triangle names one in a byte
 
 /// How triangles feel. Material k of a triangle is the k-th of the table, from 1; 0: none.
@@ -35,7 +38,20 @@ struct TextureLayout {
 };
 static_assert(sizeof(TextureLayout) == 32);
 
-// Of the sum of both waves. With a slope below 1 the force grows with the penetration everywhere.
+/// A periodic tile of side * side samples, from `first` on, row by row (scene/relief.hpp).
+/// Tiles lie along u and v: sample (row v, column u) is where u_per_m . x and v_per_m . x are v /
+/// side and u / side past whole numbers. All zero: none.
+struct ReliefLayout {
+  float u_per_m[3], v_per_m[3];  // tiles a metre, along each axis
+  float height_m;                // below the triangle, of a sample of 255; 0 is at it
+  float slope, per_m;            // at least what bounds_of() the samples is
+  uint32_t first, side;
+};
+static_assert(sizeof(ReliefLayout) == 44);
+constexpr uint32_t kMinReliefSide = 4, kMaxReliefSide = 64;  // a power of two
+
+// Of the sum of waves and map. With a slope below 1 the force grows with the penetration
+// everywhere.
 constexpr float kMaxTextureHeight_m = 0.002f;
 constexpr float kMaxTextureSlope = 0.75f;
 constexpr float kMaxWaves_per_m = 1e5f;  // in each axis
@@ -58,10 +74,14 @@ enum MaterialRule : uint16_t {
   kRuleMaterialBytes = 825,
   // A triangle names a material behind the end of the table.
   kRuleMaterialIndex = 826,
-  // There are textures, but not one a material.
+  // There are textures or height maps, but not one a material.
   kRuleTextureCount = 827,
-  // The waves of a texture are higher than 2 mm, steeper than 0.75, or more than 100,000 a metre.
+  // Waves and map together are higher than 2 mm, steeper than 0.75, or more than 100,000 a metre.
   kRuleTextureValue = 828,
+  // A height map has a side that is no power of two from 4 to 64, or samples outside its section.
+  kRuleReliefSamples = 829,
+  // A height map is steeper, or curves more, than it states.
+  kRuleReliefBounds = 830,
 };
 
 }  // namespace firmtouch::scene

@@ -9,13 +9,14 @@ namespace firmtouch::scene {
 
 /// The bytes of the sections that say how a mesh's triangles feel.
 struct MaterialSections {
-  core::Bytes table, triangles, textures;
+  core::Bytes table, triangles, textures, reliefs, samples;
 
   /// Calls take(section type, bytes) for each.
   template <class Take>
   void each(const Take& take) {
     take(kMaterialsSection, table), take(kTriangleMaterialsSection, triangles);
-    take(kTexturesSection, textures);
+    take(kTexturesSection, textures), take(kReliefsSection, reliefs);
+    take(kReliefSamplesSection, samples);
   }
 };
 
@@ -27,6 +28,11 @@ class StoredMaterials {
   core::Span<const MaterialLayout> table() const { return table_; }
   /// One a material, or none.
   core::Span<const TextureLayout> textures() const { return textures_; }
+  core::Span<const ReliefLayout> reliefs() const { return reliefs_; }
+  const core::Bytes& samples() const { return samples_; }
+  bool has_textures() const { return !textures_.empty() || !reliefs_.empty(); }
+  /// The texture of a material, from 1; none of another number.
+  Cut cut_of(uint32_t material, math::Vec3 x_m) const;
   const Stiffening& stiffening() const { return stiffening_; }
   /// Of a triangle: 1 + its place in the table; 0: none, also where nothing is open.
   /// Pre: the triangle is one of the mesh.
@@ -36,14 +42,15 @@ class StoredMaterials {
   friend class MaterialsProof;
   core::Span<const MaterialLayout> table_;
   core::Span<const TextureLayout> textures_;
-  core::Bytes triangles_;
+  core::Span<const ReliefLayout> reliefs_;
+  core::Bytes triangles_, samples_;
   Stiffening stiffening_;
 };
 
-/// What Opening proves of materials: rules R821 to R828 of tools/FORMAT.md.
+/// What Opening proves of materials: rules R821 to R830 of tools/FORMAT.md.
 class MaterialsProof {
  public:
-  static const query::CheckStage kStages[3];
+  static const query::CheckStage kStages[4];
   /// `mesh` is open.
   core::Verdict take(const MaterialSections& sections, const mesh::View& mesh);
   core::Verdict check_head() const { return core::kPassed; }
@@ -54,9 +61,11 @@ class MaterialsProof {
 
   uint32_t material_count() const { return view.table_.size(); }
   uint32_t slice_count() const;
-  uint32_t texture_count() const { return view.textures_.size(); }
+  uint32_t texture_count() const { return view.has_textures() ? view.table_.size() : 0; }
+  uint32_t relief_count() const { return view.reliefs_.size(); }
   core::Verdict check_material(uint32_t i);
   core::Verdict check_texture(uint32_t i);
+  core::Verdict check_relief(uint32_t i);
   core::Verdict check_slice(uint32_t i);
 };
 

@@ -21,12 +21,15 @@ Cut cut_at(const TextureLayout& texture, math::Vec3 x_m) {
   return cut;
 }
 
-Stiffening stiffening_of(core::Span<const TextureLayout> textures) {
+Stiffening stiffening_of(core::Span<const TextureLayout> textures,
+                         core::Span<const ReliefLayout> reliefs) {
   constexpr float kPi = 3.14159274f;
   Stiffening most;
-  for (const TextureLayout& texture : textures) {
+  for (uint32_t i = 0; i < textures.size() || i < reliefs.size(); ++i) {
     float slope = 0, per_m = 0;
-    for (const WaveLayout& wave : texture.wave) {
+    if (i < reliefs.size()) slope = reliefs[i].slope, per_m = reliefs[i].per_m;
+    for (uint32_t k = 0; k < 2 && i < textures.size(); ++k) {
+      const WaveLayout& wave = textures[i].wave[k];
       const math::Vec3 turns{wave.per_m[0], wave.per_m[1], wave.per_m[2]};
       const float square = math::dot(turns, turns);
       slope += kPi * wave.height_m * math::square_root(square);

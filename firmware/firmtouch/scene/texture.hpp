@@ -39,6 +39,7 @@ struct Stiffening {
   float share = 1;  // times its stiffness: across the surface
   float per_m = 0;  // times its force: along the surface
 };
-Stiffening stiffening_of(core::Span<const TextureLayout> textures);
+Stiffening stiffening_of(core::Span<const TextureLayout> textures,
+                         core::Span<const ReliefLayout> reliefs = {});
 
 }  // namespace firmtouch::scene

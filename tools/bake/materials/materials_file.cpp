@@ -1,9 +1,12 @@
 #include "bake/materials/materials_file.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
+#include "bake/materials/height_map_file.hpp"
 #include "bake/objects/clauses.hpp"
+#include "firmtouch/scene/relief.hpp"
 #include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
@@ -39,6 +42,52 @@ scene::TextureLayout read_waves(LineReader& words) {
   return texture;
 }
 
+// FILE HEIGHT every LENGTH along X Y Z and X Y Z: a tile, u to the right and v down the picture.
+scene::ReliefLayout read_map(LineReader& words, const std::string& file,
+                             std::vector<uint8_t>& samples) {
+  const std::string name = words.next("a picture of the map");
+  scene::ReliefLayout map{};
+  map.height_m = static_cast<float>(
+      words.quantity("map", "m", 0, double{scene::kMaxTextureHeight_m} * (1 - 1e-6)));
+  words.expect("every");
+  const double length_m = words.quantity("every", "m", 2.0 / double{scene::kMaxWaves_per_m}, 1);
+  words.expect("along");
+  const auto read_axis = [&](float(&per_m)[3]) {
+    const Point along = words.vector("along", "", 1e6);
+    if (!(length(along) > 0))
+      words.refuse("a map along 0 0 0 has no direction; write three numbers, not all 0");
+    const Point tiles = along * (1 / (length(along) * length_m));
+    per_m[0] = static_cast<float>(tiles.x), per_m[1] = static_cast<float>(tiles.y);
+    per_m[2] = static_cast<float>(tiles.z);
+  };
+  read_axis(map.u_per_m);
+  words.expect("and");
+  read_axis(map.v_per_m);
+  const HeightMap read =
+      read_height_map((std::filesystem::path(file).parent_path() / name).string());
+  map.side = read.side;
+  map.first = static_cast<uint32_t>(samples.size());
+  samples.insert(samples.end(), read.samples.begin(), read.samples.end());
+  const scene::ReliefBounds bounds = scene::bounds_of(map, samples.data());
+  map.slope = bounds.slope, map.per_m = bounds.per_m;
+  return map;
+}
+
+// What opening would reject.
+void check_texture(LineReader& words, const scene::TextureLayout& texture,
+                   const scene::ReliefLayout& map) {
+  double height_m = static_cast<double>(map.height_m), slope = static_cast<double>(map.slope);
+  for (const scene::WaveLayout& wave : texture.wave) {
+    const Point per_m{double{wave.per_m[0]}, double{wave.per_m[1]}, double{wave.per_m[2]}};
+    height_m += double{wave.height_m};
+    slope += 3.1416 * double{wave.height_m} * length(per_m);
+  }
+  if (height_m > double{scene::kMaxTextureHeight_m} || slope > double{scene::kMaxTextureSlope})
+    words.refuse("the texture is up to " + std::to_string(slope) + " steep and " +
+                 std::to_string(height_m * 1e3) +
+                 " mm high, more than 0.75 or 2 mm; make it lower, longer or smoother");
+}
+
 void read_clause(const std::string& word, LineReader& words, MaterialLayout& material,
                  scene::TextureLayout& texture) {
   if (word == "stiffness") {
@@ -54,18 +103,25 @@ void read_clause(const std::string& word, LineReader& words, MaterialLayout& mat
     texture = read_waves(words);
   } else {
     words.refuse("unknown word `" + word +
-                 "`; a material has: stiffness, friction, viscous, waves");
+                 "`; a material has: stiffness, friction, viscous, waves, map");
   }
 }
 
-MaterialLayout read_line(LineReader& words, scene::TextureLayout& texture) {
-  MaterialLayout material{};
+void read_line(LineReader& words, Materials& materials) {
+  MaterialLayout& material = materials.table.emplace_back();
+  scene::TextureLayout& texture = materials.textures.emplace_back();
+  scene::ReliefLayout& map = materials.reliefs.emplace_back();
   material.stiffness_N_per_m = FLT_MAX;
   words.expect("material");
   read_name(words, "the material's name", material.name);
-  read_clauses(words,
-               [&](const std::string& word) { read_clause(word, words, material, texture); });
-  return material;
+  read_clauses(words, [&](const std::string& word) {
+    if (word == "map") {
+      map = read_map(words, materials.file, materials.samples);
+    } else {
+      read_clause(word, words, material, texture);
+    }
+  });
+  check_texture(words, texture, map);
 }
 
 std::string names_of(const Materials& materials) {
@@ -92,11 +148,11 @@ uint8_t number_of(const std::string& name, const std::string& model, const Mater
 }  // namespace
 
 Materials read_materials(const std::string& file, const std::string& text) {
-  Materials materials{file, {}, {}};
+  Materials materials{file, {}};
   bool has_waves = false;
   std::set<std::string> names;
   read_lines(file, text, [&](LineReader& words, int) {
-    materials.table.push_back(read_line(words, materials.textures.emplace_back()));
+    read_line(words, materials);
     has_waves |= materials.textures.back().wave[0].height_m > 0.0f;
     if (!names.insert(materials.table.back().name).second)
       words.refuse("there are two materials `" + std::string(materials.table.back().name) +
@@ -105,6 +161,7 @@ Materials read_materials(const std::string& file, const std::string& text) {
       words.refuse("a mesh has at most " + std::to_string(scene::kMaxMaterials) + " materials");
   });
   if (!has_waves) materials.textures.clear();
+  if (materials.samples.empty()) materials.reliefs.clear();
   if (materials.table.empty()) throw Refused(file + ": it has no material; write `material NAME`");
   return materials;
 }

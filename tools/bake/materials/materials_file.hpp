@@ -14,11 +14,13 @@ struct Materials {
   std::string file;  // for messages
   std::vector<scene::MaterialLayout> table;
   std::vector<scene::TextureLayout> textures = {};  // one a material; none where all are smooth
+  std::vector<scene::ReliefLayout> reliefs = {};    // one a material, or none
+  std::vector<uint8_t> samples = {};                // of all maps
 };
 
 /// Reads a file of materials, one a line (syntax: `firmtouch bake --help`). Throws Refused with
-/// file and line: unknown word or unit, value out of range, waves too steep, name given twice,
-/// none, more than 255.
+/// file and line: unknown word or unit, value out of range, texture too steep, name given twice,
+/// none, more than 255; or with a height map's path, which is relative to the file.
 Materials read_materials(const std::string& file, const std::string& text);
 
 /// The number of each triangle's material, of a model that names them. Throws Refused: a name or

@@ -159,6 +159,9 @@ void add_materials(const Surface& surface, const std::string& name, const MeshOp
   sections.push_back(make_section(scene::kTriangleMaterialsSection, name, triangles));
   if (!options.textures.empty())
     sections.push_back(make_section(scene::kTexturesSection, name, options.textures));
+  if (options.reliefs.empty()) return;
+  sections.push_back(make_section(scene::kReliefsSection, name, options.reliefs));
+  sections.push_back(make_section(scene::kReliefSamplesSection, name, options.samples));
 }
 
 // Whether nothing of a refined surface has to be reported by the faces of the file.

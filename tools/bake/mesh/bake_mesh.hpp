@@ -19,6 +19,8 @@ struct MeshOptions {
   TreeShape shape = kFastTree;
   std::vector<scene::MaterialLayout> materials = {};  // of the surface's numbers, from 1
   std::vector<scene::TextureLayout> textures = {};    // one a material, or none
+  std::vector<scene::ReliefLayout> reliefs = {};      // the same
+  std::vector<uint8_t> samples = {};                  // of all maps
 };
 
 struct MeshReport {
