@@ -49,7 +49,7 @@ void write_file(const std::string& path, const void* bytes, size_t count) {
   const std::string temporary = path + ".part";
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr)
-    fail_input(path + ": cannot be written: " + reason() + "; name a folder that exists with -o");
+    fail_input(path + ": cannot be written: " + reason() + "; name one in a folder that exists");
   const bool written = std::fwrite(bytes, 1, count, file) == count;
   const bool closed = std::fclose(file) == 0;
   if (written && closed && std::rename(temporary.c_str(), path.c_str()) == 0) return;

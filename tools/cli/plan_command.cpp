@@ -22,7 +22,8 @@ struct Limits {
 };
 
 // "512K": K and M of `kilo`.
-double scaled(const Arguments& arguments, const std::string& option, double kilo) {
+double scaled(const Arguments& arguments, const std::string& option, double kilo,
+              const std::string& example) {
   const std::string text = arguments.text(option, "");
   char* end = nullptr;
   double value = std::strtod(text.c_str(), &end);
@@ -30,7 +31,7 @@ double scaled(const Arguments& arguments, const std::string& option, double kilo
   if (unit == "k" || unit == "K") value *= kilo, unit.clear();
   if (unit == "M") value *= kilo * kilo, unit.clear();
   if (text.empty() || !unit.empty() || !(value >= 1 && value <= 1e12))
-    fail_usage("plan: " + option + " " + text + ": a number such as 64K or 2M is needed");
+    fail_usage("plan: " + option + " " + text + ": a number such as " + example + " is needed");
   return value;
 }
 
@@ -38,9 +39,9 @@ Limits limits_of(const Arguments& arguments) {
   for (const char* option : {"--flash", "--ram"})
     if (!arguments.has(option))
       fail_usage(std::string("plan: say what there is: ") + option + " 512K");
-  Limits limits{static_cast<uint64_t>(scaled(arguments, "--flash", 1024)),
-                static_cast<uint64_t>(scaled(arguments, "--ram", 1024)), 1000, 0};
-  if (arguments.has("--rate")) limits.rate_Hz = scaled(arguments, "--rate", 1000);
+  Limits limits{static_cast<uint64_t>(scaled(arguments, "--flash", 1024, "512K or 2M")),
+                static_cast<uint64_t>(scaled(arguments, "--ram", 1024, "64K or 1M")), 1000, 0};
+  if (arguments.has("--rate")) limits.rate_Hz = scaled(arguments, "--rate", 1000, "1k or 4k");
   if (limits.rate_Hz > 20000) fail_usage("plan: --rate: a servo makes at most 20k ticks a second");
   limits.mips = arguments.number("--mips", 0, 1e-3);
   return limits;
@@ -127,7 +128,7 @@ std::vector<std::string> pools(const Limits& limits, const PlanRow& row) {
                 ": build with FIRMTOUCH_APP_TWO_RATES",
             "geometry at most at " +
                 rounded(std::floor(limits.mips * 1e6 / ((fixed + 1) * a_unit))) +
-                " Hz then, or --rate that at one rate"};
+                " Hz then; without it --rate is at most that"};
   const double pool = std::min(room, units);
   std::vector<std::string> lines{
       "tick_work " + rounded(pool) + ": " + rounded(pool - fixed) + " units for queries; " +

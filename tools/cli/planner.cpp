@@ -110,8 +110,10 @@ PlanRow Planner::bake(const Words& words, bool must) {
   Words all = shared_;
   all.insert(all.end(), words.begin(), words.end());
   BakedAsset baked;
+  Command command = bake_command();
+  command.name = "plan";  // whose options they are
   try {
-    baked = bake_asset(bake_request(Arguments(bake_command(), all)), "plan");
+    baked = bake_asset(bake_request(Arguments(command, all)), "plan");
   } catch (const Failure& failure) {
     if (must) throw;
     row.refused = failure.message;
