@@ -93,6 +93,7 @@ check() {
   folder=$(mktemp -d) made=$folder/firmtouch
   part() { sed -n "s/^#define FIRMTOUCH_VERSION_$1 //p" firmware/firmtouch/version.hpp; }
   version=$(part MAJOR).$(part MINOR).$(part PATCH)
+  [ "$(sed -n 's/^## \([0-9][0-9.]*\).*/\1/p' CHANGELOG.md | head -n 1)" = "$version" ] || complain "CHANGELOG.md: its first release is another than $version"
   arithmetic='-ffp-contract=off -fno-associative-math -fno-finite-math-only -fno-unsafe-math-optimizations -fno-reciprocal-math -fsigned-zeros'
   sh tools/packaging/pack "$folder" https://example.org/firmtouch >"$folder/said" 2>&1 || complain "pack: $(cat "$folder/said")"
   ! sh tools/packaging/pack "$folder" https://example.org >"$folder/said" 2>&1 || complain 'pack: writes over a package'
@@ -110,6 +111,7 @@ check() {
 in_pack() { edit tools/packaging/pack "$1"; expect=$2; }
 plant_version_of_its_own() { in_pack 's/^version=$version/version=9.9.9/' 'library.properties: another version'; }
 plant_version_of_json() { in_pack 's/"version": "$version"/"version": "9.9.9"/' 'library.json: another version'; }
+plant_release_without_changes() { edit CHANGELOG.md 's/^## 0.1.0/## 0.0.9/'; expect='CHANGELOG.md: its first release'; }
 plant_lost_comma() { in_pack 's/"license": "MIT",/"license": "MIT"/' 'library.json: a comma is missing'; }
 plant_lost_key() { in_pack '/^sentence=/d' 'library.properties: no sentence'; }
 plant_lost_flags() { edit firmware/cmake/firmtouch_options.cmake 's/ -ffp-contract=off//'; expect='library.json: no -ffp-contract=off'; }

@@ -1,10 +1,16 @@
 #pragma once
+#include "firmtouch/version.hpp"
+
+#define FIRMTOUCH_TEXT_OF(number) #number
+#define FIRMTOUCH_TEXT(number) FIRMTOUCH_TEXT_OF(number)
+#define FIRMTOUCH_RELEASE                 \
+  FIRMTOUCH_TEXT(FIRMTOUCH_VERSION_MAJOR) \
+  "." FIRMTOUCH_TEXT(FIRMTOUCH_VERSION_MINOR) "." FIRMTOUCH_TEXT(FIRMTOUCH_VERSION_PATCH)
 
 namespace firmtouch::cli {
 
-/// Raised with every release.
-constexpr const char* kRelease = "0.1.0";
+constexpr const char* kRelease = FIRMTOUCH_RELEASE;
 /// Part of an asset's provenance.
-constexpr const char* kToolVersion = "firmtouch 0.1.0";
+constexpr const char* kToolVersion = "firmtouch " FIRMTOUCH_RELEASE;
 
 }  // namespace firmtouch::cli
