@@ -15,8 +15,12 @@ inline volatile uint16_t& reg16(uint32_t address) {
 constexpr uint32_t kSysTickControl = 0xE000E010;  // b0 enable, b1 interrupt, b2 processor clock
 constexpr uint32_t kSysTickReload = 0xE000E014;   // 24 bits
 constexpr uint32_t kSysTickValue = 0xE000E018;
-constexpr uint32_t kNvicEnable = 0xE000E100;    // one bit an interrupt
+constexpr uint32_t kNvicLines = 0xE000E004;   // words of kNvicEnable, less one
+constexpr uint32_t kNvicEnable = 0xE000E100;  // one bit an interrupt
+constexpr uint32_t kNvicDisable = 0xE000E180;
+constexpr uint32_t kNvicPend = 0xE000E200;
 constexpr uint32_t kNvicPriority = 0xE000E400;  // one byte an interrupt
+constexpr uint32_t kInterruptState = 0xE000ED04;
 constexpr uint32_t kVectorTable = 0xE000ED08;
 constexpr uint32_t kSystemPriority3 = 0xE000ED20;  // SysTick in bits 24-31
 constexpr uint32_t kFaultStatus = 0xE000ED28;

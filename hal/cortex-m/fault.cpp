@@ -16,7 +16,7 @@ void report_fault(const Frame* frame) {
   if (frame != nullptr) {
     print_hex("pc ", frame->pc);
     print_hex("lr ", frame->lr);
-    board_print("(find them with addr2line)\n");
+    board_print("see addr2line\n");
   } else {
     board_print(kStackOverflowText);
   }

@@ -11,7 +11,7 @@ int main();  // not extern "C": clang mangles it in freestanding code
 
 extern "C" {
 extern uint32_t __data_begin[], __data_end[], __data_load[];
-extern uint32_t __bss_begin[], __bss_end[];
+extern uint32_t __bss_end[];
 using Constructor = void (*)();
 extern Constructor __init_array_begin[], __init_array_end[];
 
@@ -20,18 +20,21 @@ extern Constructor __init_array_begin[], __init_array_end[];
   firmtouch::hal::stack_paint();
   firmtouch::hal::stack_guard();
   const uint32_t* from = __data_load;
-  for (uint32_t* to = __data_begin; to < __data_end; ++to) *to = *from++;
-  for (uint32_t* to = __bss_begin; to < __bss_end; ++to) *to = 0;
-  for (Constructor* make = __init_array_begin; make < __init_array_end; ++make) (*make)();
+  uint32_t* to = __data_begin;
+  while (to != __data_end) *to++ = *from++;
+  while (to != __bss_end) *to++ = 0;  // it follows
+  for (Constructor* make = __init_array_begin; make != __init_array_end; ++make) (*make)();
   firmtouch::hal::board_exit(main());
 }
 
-/// FPU on, rounding to nearest; stack; traps.
+/// No interrupts, which a boot loader may have left on; FPU on, rounding to nearest; stack; traps.
 [[gnu::naked, gnu::section(".reset"), noreturn]] void reset_handler() {
   asm volatile(
       ".option push; .option norelax     \n"
       "la gp, __global_pointer$          \n"
       ".option pop                       \n"
+      "csrci mstatus, 8                  \n"
+      "csrw mie, zero                    \n"
       "li t0, 0x2000                     \n"  // mstatus.FS: initial
       "csrs mstatus, t0                  \n"
       "csrw fcsr, zero                   \n"

@@ -28,7 +28,7 @@ extern "C" {
   print_hex("value ", value);
   const uint32_t bottom = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(__stack_bottom));
   const bool is_overflow = sp < bottom + 512 || value - (bottom - 0x8000) < 0x8000;
-  board_print(is_overflow ? kStackOverflowText : "(find them with addr2line)\n");
+  board_print(is_overflow ? kStackOverflowText : "see addr2line\n");
   board_exit(kFaultExitStatus);
 }
 

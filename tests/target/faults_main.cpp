@@ -3,6 +3,9 @@
 #include <stdint.h>
 
 #include "count.hpp"
+#ifdef __arm__
+#include "cortex-m/cortex_m.hpp"
+#endif
 #include "emulator/exit.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/clock.hpp"
@@ -15,15 +18,28 @@ using hal::board_print;
 
 namespace {
 
-enum Cause : uint8_t { kRun, kExit, kBus, kUndefined, kOverflow, kWatchdog, kThread };
+enum Cause : uint8_t {
+  kRun,
+  kExit,
+  kBus,
+  kUndefined,
+  kOverflow,
+  kWatchdog,
+  kThread,
+  kMaskedLoader,
+  kLooseLoader
+};
 
 [[gnu::section(".noinit")]] uint32_t g_motors_off_calls;  // counted from reset; QEMU's RAM is 0
+[[gnu::section(".noinit")]] bool g_is_loaded;             // by leave_boot_loader()
+[[gnu::section(".noinit")]] volatile uint32_t g_strays;   // the loader's interrupts in the program
 volatile uint32_t g_ticks = 0;
 volatile bool g_has_power = false;
 uint32_t g_ticks_at_cause = 0;
 
 void tick() {
-  g_ticks = g_ticks + 1;
+  volatile uint32_t on_stack = g_ticks;  // so that the handler needs one
+  g_ticks = on_stack + 1;
   hal::motors_state(true);
 }
 
@@ -52,8 +68,47 @@ void tick() {
       : "r0", "memory");
   undefined();
 }
+alignas(256) void (*g_loader_vectors[16])();
+extern "C" uint32_t __stack_bottom[];
+
+void count_stray() { g_strays = g_strays + 1; }
+
+// What a boot loader may leave: interrupts enabled and pending, all masked, on the other stack;
+// both are full; or its vectors and its timer, not masked. Then it starts this program once more,
+// whose first motors_off() the timer interrupts.
+[[noreturn]] void leave_boot_loader(bool is_masked) {
+  const uint32_t reset = hal::reg(hal::reg(hal::kVectorTable) + 4);
+  if (is_masked) {
+    asm volatile("cpsid i" ::: "memory");
+    for (uint32_t word = 0; word < 64; word += 4) {
+      hal::reg(hal::kNvicEnable + word) = UINT32_MAX;
+      hal::reg(hal::kNvicPend + word) = UINT32_MAX;
+    }
+    hal::reg(hal::kInterruptState) = 1u << 28;  // PendSV
+    asm volatile(
+        "msr basepri, %2\n msr psp, %0\n mrs r0, control\n orr r0, #2\n msr control, r0\n isb\n "
+        "msr msp, %0\n bx "
+        "%1" ::"r"(__stack_bottom),
+        "r"(reset), "r"(hal::kServoPriority)
+        : "r0", "memory");
+  } else {
+    for (auto& vector : g_loader_vectors) vector = count_stray;
+    hal::reg(hal::kVectorTable) =
+        static_cast<uint32_t>(reinterpret_cast<uintptr_t>(g_loader_vectors));
+    g_strays = 0;
+    asm volatile("bx %0" ::"r"(reset) : "memory");
+  }
+  __builtin_unreachable();
+}
+void pend_timer() { hal::reg(hal::kInterruptState) = 1u << 26; }
 #else
 [[noreturn]] void undefined_in_thread() { undefined(); }
+void pend_timer() {}
+[[noreturn]] void leave_boot_loader(bool) {
+  hal::clock_start_servo(1, tick);  // soon after the start
+  asm volatile("j reset_handler");
+  __builtin_unreachable();
+}
 #endif
 
 }  // namespace
@@ -65,6 +120,7 @@ void motors_state(bool may_push) { g_has_power = may_push; }
 void motors_write_N(const float (&)[3]) {}
 uint32_t motors_lines() { return 0; }
 void motors_off() {
+  if (g_is_loaded && g_motors_off_calls == 0) pend_timer();
   g_has_power = false;
   ++g_motors_off_calls;
   if (g_ticks_at_cause != 0)
@@ -112,6 +168,15 @@ int main() {
       for (;;) asm volatile("nop");
     case kThread:
       undefined_in_thread();
+    case kMaskedLoader:
+    case kLooseLoader:
+      if (!g_is_loaded) {
+        g_is_loaded = true;
+        g_motors_off_calls = 0;
+        leave_boot_loader(cause == kMaskedLoader);
+      }
+      if (g_strays != 0) return 43;
+      [[fallthrough]];
     case kRun:
       while (g_ticks < 50) {
       }
