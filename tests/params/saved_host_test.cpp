@@ -80,7 +80,14 @@ uint32_t attack(uint32_t sector_bytes, uint32_t unit_bytes, uint32_t updates) {
         CHECK(was_cut);
         const uint32_t now = found(hurt, update - 1, update);
         CHECK(now == update - 1 || (now == update && operation + 1 == operations));
+        hurt.cut_at(random() % operations, Cut::kTorn);  // the next start is cut as well
+        try {
+          start_and_save(hurt, update + 1);
+        } catch (const PowerCut&) {
+        }
         hurt.cut_at(0, Cut::kNone);
+        const uint32_t then = found(hurt, now, update + 1);
+        CHECK(then == now || then == update + 1);
         start_and_save(hurt, update + 1);  // the next update is still possible
         CHECK_EQ(found(hurt, now, update + 1), update + 1);
         ++cuts;
