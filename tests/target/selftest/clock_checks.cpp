@@ -101,7 +101,8 @@ bool check_clock() {
   start_servo();
   g_us_per_100_ticks = us_of_100_ticks();
   if (!check("clock_start_servo", g_us_per_100_ticks != 0,
-             "no interrupt comes: vector table, timer, priority"))
+             "no interrupt in 0.2 s of clock_us(): vector table, timer, priority; or clock_us() is "
+             "fast"))
     return false;
   check("clock_start_servo, 1 ms", is_near(g_us_per_100_ticks, 100 * kTick_us),
         "its milliseconds differ from those of clock_us: a clock rate is wrong");
