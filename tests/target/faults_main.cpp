@@ -85,6 +85,8 @@ void count_stray() { g_strays = g_strays + 1; }
       hal::reg(hal::kNvicPend + word) = UINT32_MAX;
     }
     hal::reg(hal::kInterruptState) = 1u << 28;  // PendSV
+    hal::reg(hal::kFloatDefaultStatus) = 3u << 22;
+    asm volatile("vmsr fpscr, %0" ::"r"(3u << 22));  // toward zero
     asm volatile(
         "msr basepri, %2\n msr psp, %0\n mrs r0, control\n orr r0, #2\n msr control, r0\n isb\n "
         "msr msp, %0\n bx "
@@ -101,9 +103,15 @@ void count_stray() { g_strays = g_strays + 1; }
   __builtin_unreachable();
 }
 void pend_timer() { hal::reg(hal::kInterruptState) = 1u << 26; }
+bool rounds_to_nearest() {
+  uint32_t status;
+  asm volatile("vmrs %0, fpscr" : "=r"(status));
+  return ((status | hal::reg(hal::kFloatDefaultStatus)) >> 22 & 3u) == 0;
+}
 #else
 [[noreturn]] void undefined_in_thread() { undefined(); }
 void pend_timer() {}
+bool rounds_to_nearest() { return true; }
 [[noreturn]] void leave_boot_loader(bool) {
   hal::clock_start_servo(1, tick);  // soon after the start
   asm volatile("j reset_handler");
@@ -175,7 +183,7 @@ int main() {
         g_motors_off_calls = 0;
         leave_boot_loader(cause == kMaskedLoader);
       }
-      if (g_strays != 0) return 43;
+      if (g_strays != 0 || !rounds_to_nearest()) return 43;
       [[fallthrough]];
     case kRun:
       while (g_ticks < 50) {
