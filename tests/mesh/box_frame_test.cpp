@@ -97,16 +97,17 @@ TEST(Turned_ErrsByFourRoundingsAtMost) {
     for (auto& axis : frame.axis)
       for (float& x : axis) x = unit();
     const math::Vec3 p{unit(), unit(), unit()}, v = mesh::turned(frame, p);
-    const double from[3] = {double{p.x} - double{frame.centre_m[0]},
-                            double{p.y} - double{frame.centre_m[1]},
-                            double{p.z} - double{frame.centre_m[2]}};
+    const double from[3] = {static_cast<double>(p.x) - static_cast<double>(frame.centre_m[0]),
+                            static_cast<double>(p.y) - static_cast<double>(frame.centre_m[1]),
+                            static_cast<double>(p.z) - static_cast<double>(frame.centre_m[2])};
     for (uint32_t k = 0; k < 3; ++k) {
       double truth = 0, size = 0;
       for (uint32_t j = 0; j < 3; ++j) {
-        truth += double{frame.axis[k][j]} * from[j];
-        size += __builtin_fabs(double{frame.axis[k][j]} * from[j]);
+        truth += static_cast<double>(frame.axis[k][j]) * from[j];
+        size += __builtin_fabs(static_cast<double>(frame.axis[k][j]) * from[j]);
       }
-      const double share = __builtin_fabs(double{(&v.x)[k]} - truth) / (4 * 0x1p-24 * size);
+      const double share =
+          __builtin_fabs(static_cast<double>((&v.x)[k]) - truth) / (4 * 0x1p-24 * size);
       most = share > most ? share : most;
     }
   }
