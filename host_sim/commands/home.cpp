@@ -12,24 +12,12 @@ namespace {
 
 constexpr double kRuns = 10000;
 
-// "12 index pulse ..., 3 blocked", the causes of all faults.
-std::string causes(const HomingTally& tally) {
-  std::string text;
-  for (uint32_t i = 1; i < 16; ++i) {
-    if (tally.faults[i] == 0) continue;
-    std::string name = device::fault_name(static_cast<device::HomingFault>(i));
-    text += (text.empty() ? "" : "; ") + std::to_string(tally.faults[i]) + " " +
-            name.substr(0, name.find_first_of(":,"));
-  }
-  return text;
-}
-
 void print_tallies(const HomingTally (&tallies)[kHomingCases]) {
-  std::printf("%-13s %6s %6s %6s %7s %10s %7s  %s\n", "case", "runs", "homed", "wrong", "counts",
+  std::printf("%-14s %6s %6s %6s %7s %10s %7s  %s\n", "case", "runs", "homed", "wrong", "counts",
               "slowest s", "torque", "faults");
   for (uint32_t i = 0; i < kHomingCases; ++i) {
     const HomingTally& tally = tallies[i];
-    std::printf("%-13s %6u %6u %6u %7lld %10.3f %7.3f  %s\n", case_name(static_cast<HomingCase>(i)),
+    std::printf("%-14s %6u %6u %6u %7lld %10.3f %7.3f  %s\n", case_name(static_cast<HomingCase>(i)),
                 tally.runs, tally.homed, tally.wrong, static_cast<long long>(tally.worst_counts),
                 tally.slowest_s, tally.torque_share, causes(tally).c_str());
   }
@@ -51,7 +39,7 @@ std::string json_of(const HomingTally (&tallies)[kHomingCases]) {
 int print_homing(const cli::Arguments& options) {
   const std::string path = options.positionals()[0];
   const tools::LinkageDevice device = tools::read_device(path, tools::read_device_text(path));
-  const uint32_t runs = static_cast<uint32_t>(options.number("--runs", kRuns, 8));
+  const uint32_t runs = static_cast<uint32_t>(options.number("--runs", kRuns, kHomingCases));
   HomingTally tallies[kHomingCases];
   const std::function<void(double)> progress = progress_bar("homing");
   for (uint32_t run = 0; run < runs; ++run) {

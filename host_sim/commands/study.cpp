@@ -39,8 +39,10 @@ cli::Command study_command() {
       "worst.\nCounted is the hand's work, less what the linkage gives back. The same without the "
       "energy's limit shows\nthat the bar can fail.\n"
       "failures: encoders that stand, are lost, swapped, reversed or slip, motors that are dead, "
-      "reversed or hot,\na broken link, each joint, at every Nth tick of six touches at 1 kHz, and "
-      "an index that fails in homing.\nseen: a fault was latched within 150 ticks; ticks to it, "
+      "reversed or hot,\na broken link, each joint, at every Nth tick of six touches at 1 kHz; "
+      "before "
+      "a homing and at every Nth tick of it.\nseen: a fault was latched within 150 ticks; ticks to "
+      "it, "
       "from there to motors at rest, the largest torque over\nthe joint's, speed of the tip and "
       "work done on the hand: the worst of all runs.",
       {{"--hands", "N", "passivity: of each machine (default 200)"},

@@ -50,6 +50,7 @@ class Rig {
     }
     settings_.by = device::HomeBy::kIndex;
     finger_rad_ = before_rad_[joint_];
+    failed_at_ = static_cast<uint32_t>(body_.count(joint_));
     is_finger_below_ = any_of(2) == 0;
   }
 
@@ -68,14 +69,15 @@ class Rig {
     result.is_done = state.is_done;
     result.fault = state.fault;
     for (uint32_t k = 0; k < joints() && state.is_done; ++k) {
-      const uint32_t homed = static_cast<uint32_t>(raw(k)) + static_cast<uint32_t>(state.offset[k]);
-      const int64_t off = int64_t{static_cast<int32_t>(homed)} - body_.count(k);
+      // Of a sound encoder: what fails after the check is not homing's.
+      const int64_t off = static_cast<int32_t>(base_[k] + static_cast<uint32_t>(state.offset[k]));
       result.error_counts = std::max(result.error_counts, off < 0 ? -off : off);
     }
     return result;
   }
 
  private:
+  bool fails(HomingCase as) const { return what_ == as && time_s_ >= from_s_; }
   uint32_t joints() const { return device_.joints.joints; }
   uint32_t any_of(uint32_t count) { return static_cast<uint32_t>(engine_() % count); }
   double share() { return static_cast<double>(engine_()) / 4294967296.0; }
@@ -123,11 +125,11 @@ class Rig {
 
   int32_t raw(uint32_t k) const {
     uint32_t from = k;
-    if (what_ == HomingCase::kSwapped && k == joint_) from = other_;
-    if (what_ == HomingCase::kSwapped && k == other_) from = joint_;
+    if (fails(HomingCase::kSwapped) && k == joint_) from = other_;
+    if (fails(HomingCase::kSwapped) && k == other_) from = joint_;
     uint32_t counts = static_cast<uint32_t>(body_.count(from));
-    if (what_ == HomingCase::kReversed && k == joint_) counts = 0u - counts;
-    if (what_ == HomingCase::kDead && k == joint_) counts = 0;
+    if (fails(HomingCase::kReversed) && k == joint_) counts = 2 * failed_at_ - counts;
+    if (fails(HomingCase::kDead) && k == joint_) counts = failed_at_;
     return static_cast<int32_t>(counts + base_[k]);
   }
 
@@ -154,7 +156,7 @@ class Rig {
       };
       const double number_now = number(now_rad), number_before = number(before_rad_[k]);
       before_rad_[k] = now_rad;
-      if (what_ == HomingCase::kNoIndex && k == joint_ && time_s_ >= from_s_) continue;
+      if (fails(HomingCase::kNoIndex) && k == joint_) continue;
       const bool is_noise = what_ == HomingCase::kNoise && k == joint_ && any_of(100) == 0;
       if (!(number_now < number_before || number_now > number_before) && !is_noise) continue;
       const double at_rad = is_noise ? now_rad
@@ -164,7 +166,7 @@ class Rig {
       const double counts =
           std::floor((at_rad - wide(joint.zero_rad)) * wide(joint.counts_per_rad));
       uint32_t count = static_cast<uint32_t>(static_cast<int64_t>(counts));
-      if (what_ == HomingCase::kReversed && k == joint_) count = 0u - count;
+      if (fails(HomingCase::kReversed) && k == joint_) count = 2 * failed_at_ - count;
       latched_[k] = static_cast<int32_t>(count + base_[k]);
       pulses_ |= 1u << k;
     }
@@ -183,8 +185,11 @@ class Rig {
     for (uint32_t step = 0; step < kSubsteps; ++step) {
       double torque_Nm[kJoints] = {};
       for (uint32_t k = 0; k < joints(); ++k) torque_Nm[k] = wide(out.torque_Nm[k]);
+      if (fails(HomingCase::kMotorDead)) torque_Nm[joint_] = 0;
+      if (fails(HomingCase::kMotorReversed)) torque_Nm[joint_] = -torque_Nm[joint_];
       torque_Nm[joint_] += finger_Nm();
       body_.advance(torque_Nm, {}, kTick_s / kSubsteps);
+      if (time_s_ < from_s_) failed_at_ = static_cast<uint32_t>(body_.count(joint_));
       time_s_ += kTick_s / kSubsteps;
       see_pulses();
     }
@@ -199,7 +204,7 @@ class Rig {
   uint32_t joint_ = 0, other_ = 0;
   bool is_invalid_ = false, is_finger_below_ = false;
   double finger_s_ = 0, finger_rad_ = 0, time_s_ = 0;
-  uint32_t base_[kJoints] = {}, pulses_ = 0;
+  uint32_t base_[kJoints] = {}, pulses_ = 0, failed_at_ = 0;  // failed_at_: count of joint_
   int32_t latched_[kJoints] = {};
   double before_rad_[kJoints] = {};
 };
@@ -207,8 +212,9 @@ class Rig {
 }  // namespace
 
 const char* case_name(HomingCase it) {
-  static const char* const kNames[] = {"good",     "finger",  "no stop",  "dead encoder",
-                                       "reversed", "swapped", "no index", "false pulses"};
+  static const char* const kNames[] = {"good",       "finger",        "no stop",  "dead encoder",
+                                       "reversed",   "swapped",       "no index", "false pulses",
+                                       "dead motor", "reversed motor"};
   return kNames[static_cast<uint32_t>(it)];
 }
 
@@ -227,6 +233,17 @@ void add(const HomingRun& run, HomingTally& to) {
   const bool is_over = !run.is_done && run.fault == HomingFault::kNone;
   if (run.error_counts > 1 || !(run.seconds <= 2.001) || !(run.torque_share <= 1) || is_over)
     ++to.wrong;
+}
+
+std::string causes(const HomingTally& tally) {
+  std::string text;
+  for (uint32_t i = 1; i < 16; ++i) {
+    if (tally.faults[i] == 0) continue;
+    const std::string name = device::fault_name(static_cast<HomingFault>(i));
+    text += (text.empty() ? "" : "; ") + std::to_string(tally.faults[i]) + " " +
+            name.substr(0, name.find_first_of(":,"));
+  }
+  return text;
 }
 
 }  // namespace firmtouch::host_sim

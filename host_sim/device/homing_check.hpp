@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "device/device_file.hpp"
 #include "firmtouch/device/homing.hpp"
@@ -16,8 +17,10 @@ enum class HomingCase : uint32_t {
   kSwapped,  // two encoders
   kNoIndex,
   kNoise,  // pulses where there is no index
+  kMotorDead,
+  kMotorReversed,
 };
-constexpr uint32_t kHomingCases = 8;
+constexpr uint32_t kHomingCases = 10;
 const char* case_name(HomingCase it);
 
 struct HomingRun {
@@ -30,7 +33,8 @@ struct HomingRun {
 
 /// The firmware's homing on a simulated linkage at 1 kHz, by index: start anywhere in the ranges,
 /// stops of 50 to 5,000 N/m at the ends of the driven links, any index phase, raw counts anywhere,
-/// every other run about the wrap. `seed` decides all. Without index: from `from_s` on.
+/// every other run about the wrap. `seed` decides all. Encoder, index or motor fail from `from_s`
+/// on, an encoder that reports invalid samples later.
 HomingRun simulate_homing(const tools::LinkageDevice& device, HomingCase what, uint32_t seed,
                           double from_s = 0);
 
@@ -43,5 +47,7 @@ struct HomingTally {
   double slowest_s = 0, torque_share = 0;
 };
 void add(const HomingRun& run, HomingTally& to);
+/// The faults by name: "12 blocked; 3 no index pulse".
+std::string causes(const HomingTally& tally);
 
 }  // namespace firmtouch::host_sim

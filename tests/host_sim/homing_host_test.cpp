@@ -11,8 +11,8 @@ using device::HomingFault;
 using host_sim::HomingCase;
 
 TEST(Homing_EveryMachine_IsWithinACountOrFaults) {
-  const uint32_t runs = test::is_long() ? 10000 : 96;
-  uint32_t named = 0, wrong_axes = 0;
+  const uint32_t runs = test::is_long() ? 10000 : 120;
+  uint32_t named = 0, wrong_axes = 0, dead_motors = 0, homed_dead = 0;
   for (const std::string& name : tools::machine_names()) {
     const tools::LinkageDevice device = tools::read_device(name, tools::machine_text(name));
     host_sim::HomingTally tallies[host_sim::kHomingCases];
@@ -28,9 +28,14 @@ TEST(Homing_EveryMachine_IsWithinACountOrFaults) {
       if (i == static_cast<uint32_t>(HomingCase::kGood)) CHECK_GE(tally.homed * 10, tally.runs * 9);
       const auto it = static_cast<HomingCase>(i);
       if (it == HomingCase::kDead || it == HomingCase::kReversed || it == HomingCase::kSwapped ||
-          it == HomingCase::kNoStop || it == HomingCase::kNoIndex)
+          it == HomingCase::kNoStop || it == HomingCase::kNoIndex ||
+          it == HomingCase::kMotorReversed)
         CHECK_EQ(tally.homed, 0u);
-      if (it != HomingCase::kReversed && it != HomingCase::kSwapped) continue;
+      // The other motors of a five-bar may move the joint.
+      if (it == HomingCase::kMotorDead) dead_motors += tally.runs, homed_dead += tally.homed;
+      if (it != HomingCase::kReversed && it != HomingCase::kSwapped &&
+          it != HomingCase::kMotorReversed)
+        continue;
       wrong_axes += tally.runs;
       named += tally.faults[static_cast<uint32_t>(HomingFault::kWrongWay)] +
                tally.faults[static_cast<uint32_t>(HomingFault::kSwapped)];
@@ -38,4 +43,6 @@ TEST(Homing_EveryMachine_IsWithinACountOrFaults) {
   }
   test::note("reversed or swapped axes that are named so", named);
   CHECK_GE(named * 10, wrong_axes * 8);
+  test::note("homed with a dead motor", homed_dead);
+  CHECK_LE(homed_dead * 20, dead_motors);
 }

@@ -292,7 +292,7 @@ const char* fault_name(HomingFault fault) {
   static const char* const kNames[] = {"none",
                                        "settings: torque, speed, margin or index period",
                                        "encoder: three bad samples in a row",
-                                       "encoder is dead, or its angle is out of the range",
+                                       "encoder or motor is dead, or its angle is out of the range",
                                        "axis is reversed: its counts go the other way",
                                        "axes are swapped",
                                        "blocked: the travel is shorter than the range",

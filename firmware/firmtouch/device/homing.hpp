@@ -35,7 +35,8 @@ enum class HomingFault : uint32_t {
   kNone,
   kSettings,     // check_homing() fails
   kBadSamples,   // three samples in a row are invalid or too far apart
-  kDeadEncoder,  // the joint's counts stand while it is driven, or its angle is not in the range
+  kDeadEncoder,  // the joint's counts stand while it is driven, or its angle is not in the range:
+                 // its encoder or its motor is dead
   kWrongWay,     // motor or encoder of the joint is reversed
   kSwapped,      // the joint is driven, and the counts of `other` move
   kBlocked,      // the travel is shorter than the range: a finger in the way
