@@ -67,6 +67,16 @@ double given_by_sine_J(float reservoir_J, uint32_t ticks, float period_ticks) {
 
 }  // namespace
 
+// At 5 N a tick a tool that leaves fast was pushed on outside of the wall.
+TEST(Energy_ToolThatLeft_IsPushedNoMore) {
+  Tool tool(kReservoir_J);
+  tool.limits.slew_limit_N_per_s = 5000;
+  tool.at(0.0001f);
+  for (int tick = 0; tick < 4; ++tick) tool.at(-0.0016f);
+  CHECK_GE(tool.force_N, 7.9f);
+  CHECK_LE(tool.at(0.0001f).force_N.z, 0.0f);
+}
+
 TEST(Energy_AnySine_GivesNoMoreThanTheReservoir) {
   const float periods[] = {10.0f, 12.7f, 20.0f, 60.0f};
   for (const float period : periods) {

@@ -163,8 +163,14 @@ bool AnyDevice::drive(const Values& values, const Push& push, const device::Join
   const bool passed =
       servo::guard_torques(guard, ceilings_, push.may_push, push.cut, rendered.torque_Nm);
   rendered_.share = passed ? rendered.share : 0.0f;
-  for (uint32_t k = 0; k < kMaxJoints; ++k)
+  float hidden_J2 = 0;
+  for (uint32_t k = 0; k < linkage_.layout().joints; ++k) {
+    const float change_Nm = rendered.torque_Nm[k] - before_Nm_[k];
+    const float hidden_J = change_Nm / linkage_.layout().joint[k].counts_per_rad;
+    hidden_J2 += hidden_J * hidden_J;
     output.motor_N[k] = before_Nm_[k] = rendered.torque_Nm[k];
+  }
+  rendered_.hidden_J2 = hidden_J2;
   return passed;
 }
 

@@ -19,8 +19,9 @@ struct Push {
 
 /// What became of the force of the last tick, for the observer of energy.
 struct Rendered {
-  float share = 1;   // of the force that the motors rendered
-  math::Vec3 off_m;  // the motion along which its torques worked, less the tool's
+  float share = 1;      // of the force that the motors rendered
+  math::Vec3 off_m;     // the motion along which its torques worked, less the tool's
+  float hidden_J2 = 0;  // (change of torque x a count)^2, of all joints
 };
 
 /// Base of the policies of devices, which turn counts to a position and a force to motors.

@@ -169,7 +169,11 @@ uint32_t ControllerCore::model_flags() const {
 void ControllerCore::count_rendered(const Rendered& last) {
   servo::Energy& energy = live_.servo.energy;
   energy.contact_N = energy.contact_N * last.share;
-  energy.available_J -= math::dot(energy.contact_N, last.off_m);
+  float available_J = energy.available_J - math::dot(energy.contact_N, last.off_m);
+  // In contact, or it was left unpaid. The sum: one comparison takes 8 B less than two.
+  if (energy.stretch_m + energy.stretch_m > energy.payable_m)
+    available_J -= servo::kHiddenWork_per_J * last.hidden_J2;
+  energy.available_J = available_J;
 }
 
 Push ControllerCore::step(const Tick& tick, uint32_t flags, record::TickOutput& output) {

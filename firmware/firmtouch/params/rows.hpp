@@ -112,7 +112,7 @@ struct FrictionRows {
 struct SheetRows {
   static constexpr Entry kRows[] = {
       {kSurfaceClosed, "surface_closed", "1", 0.0f, 1.0f, 0.0f, When::kAnytime,
-       "spline surfaces: 0: sheets with a free side, 1: they enclose a solid"},
+       "spline surfaces: 0: sheets with a free side, 1: a solid"},
       {kSurfaceTurned, "surface_turned", "1", 0.0f, 1.0f, 0.0f, When::kAnytime,
        "free side of spline surfaces: 0: along their normals, 1: the other"},
   };

@@ -58,11 +58,11 @@ constexpr const char* fault_name(uint32_t number) {
 /// Result: empty beyond the last.
 constexpr const char* fault_text(uint32_t number) {
   constexpr const char* kText[kFaultCount] = {
-      "position, velocity or force not finite",
+      "input or force not finite",
       "local model out of range",
-      "no local model came in time (model_age)",
-      "ticks came late (late_ratio, tick_period_s)",
-      "clock jumped or stood still (tick_period_s)",
+      "no local model in time (model_age)",
+      "late ticks (late_ratio, tick_period_s)",
+      "clock jumped or stood (tick_period_s)",
       "encoder lost, or beyond max_speed_mps",
       "tool left workspace_half_{x,y,z}_m",
       "the drive reported a fault",
@@ -70,12 +70,12 @@ constexpr const char* fault_text(uint32_t number) {
       "refused asset: bake it again",
       "probe answers have other bits here",
       "servo setting out of range",
-      "the guard stopped a force (force_limit_N)",
-      "ticks over 0.9 of tick_period_s: lower the budgets",
+      "guard stopped a force (force_limit_N)",
+      "ticks over 0.9 tick_period_s: lower budgets",
       "raise tick_work, bake a hull, start outside",
       "gave energy: lower contact_stiffness (energy_reservoir_J)",
-      "objects squeezed the tool: keep them apart",
-      "not homed: free the joints, clear, enable"};
+      "objects squeeze: keep them apart",
+      "not homed: free joints, clear, enable"};
   return number < kFaultCount ? kText[number] : "";
 }
 

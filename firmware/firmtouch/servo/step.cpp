@@ -60,7 +60,8 @@ uint32_t seen_faults(const State& state, const Settings& settings, const LocalMo
 
 bool is_on(Mode mode) { return mode == Mode::kRampIn || mode == Mode::kOn; }
 
-uint32_t ramp_out_ticks(const Settings& settings) {
+// noinline: in flash once, not twice.
+__attribute__((noinline)) uint32_t ramp_out_ticks(const Settings& settings) {
   const float ticks = kRampOut_s / settings.tick_period_s;
   return ticks >= 1.0f && ticks <= 1000.0f ? static_cast<uint32_t>(ticks) : 1u;
 }
@@ -129,7 +130,8 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
                        settings.force_limit_N * (4.0f * kRound);
   Vec3 force_N =
       shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
-  // A force that is not paid for must not last: it falls faster than its slew limit.
+  // A force that is not paid for must not last: it falls faster than its slew limit. So does that
+  // of a contact which the tool left, if another such tick is not paid for.
   if (state.energy.payable_m < state.energy.stretch_m)
     force_N = shorten(force_N, math::length(wanted_N));
   if (model.spring.is_used) {
