@@ -25,10 +25,12 @@
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/guide/guided_point.hpp"
 #include "target/count.hpp"
+#include "target/random.hpp"
 #include "target/scene_views.hpp"
 
 using namespace firmtouch;  // NOLINT: a program of the tests
 using math::Vec3;
+using target::Random;
 
 namespace {
 
@@ -41,34 +43,6 @@ constexpr float kArcPenalty = 0.1f, kRelease = 0.1f;  // of a guide, as shares o
 struct Settings {
   uint32_t rounds, seed, fixed, per_unit;
   char part;  // 'g': a guide, 'f': a field, 'h': a hull; else the shape itself
-};
-
-class Random {
- public:
-  explicit Random(uint32_t seed) : state_(seed * 2654435761u | 1u) {}
-  uint32_t next() {
-    state_ ^= state_ << 13;
-    state_ ^= state_ >> 17;
-    state_ ^= state_ << 5;
-    return state_;
-  }
-  uint32_t below(uint32_t end) { return (next() >> 8) % end; }
-  /// Uniform in [-1, 1].
-  float sign() {
-    return static_cast<float>(static_cast<int32_t>(next() >> 8) - (1 << 23)) * 0x1p-23f;
-  }
-  Vec3 cube() {
-    const float x = sign(), y = sign();
-    return {x, y, sign()};
-  }
-  /// A power of two times `least`, up to 2^octaves of it.
-  float scale(float least, uint32_t octaves) {
-    for (uint32_t i = below(octaves + 1); i != 0; --i) least *= 2.0f;
-    return least;
-  }
-
- private:
-  uint32_t state_;
 };
 
 // A shape that is queried, and what the last query left.

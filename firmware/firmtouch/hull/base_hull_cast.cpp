@@ -94,7 +94,7 @@ class Turns {
   }
 
  private:
-  static constexpr uint32_t kExactWork = 100;  // it takes up to 10,000 instructions
+  static constexpr uint32_t kExactWork = 100;  // it takes about 12,000 instructions
   Vec3 a_m_, b_m_;
   query::Work& work_;
 };

@@ -12,7 +12,7 @@ struct Carried {
   bool is_finite = false;  // the motion is; else nothing else is known
 };
 
-/// Bounds: constant, about 45 instructions.
+/// Bounds: constant, about 90 instructions.
 /// Result: nothing known (zeros) for a cold hint or a motion that is not finite.
 Carried carry(const HintBase& hint, math::Vec3 position_m);
 

@@ -15,7 +15,7 @@ struct CurveGuideTouch : GuideTouch {
 /// Ties the tool at `position_m` (device frame) to the curve, across it; along it the tool is free,
 /// or driven. At a corner, and past an end that holds, the pull is to that point, so that the force
 /// has no jump. curve::follow() finds the part of the curve.
-/// Bounds: one query of `budget`, and about 300 instructions; re-entrant for different touches.
+/// Bounds: one query of `budget`, and about 530 instructions; re-entrant for different touches.
 /// Result: a sound model if the material is sound. NaN in the guide's settings counts as 0. Without
 ///         a drive no force does work on a tool that returns to where it was, except the snap,
 ///         which gives stiffness snap^2 / 2. A drive gives at most its force times the length.

@@ -47,7 +47,7 @@ ObjectProblem set_object(const Object& wanted, Object& object);
 math::Mat3 rotation_by(math::Vec3 turn_rad);
 
 /// Moves an object by its twist for `passed_s`. One that would leave kMaxObjectDistance_m stops.
-/// Bounds: about 250 instructions for one that turns; re-entrant.
+/// Bounds: about 310 instructions for one that turns; re-entrant.
 /// Error: a rotation stays orthonormal to 4e-7 for any number of calls.
 void advance(Object& object, float passed_s);
 

@@ -80,8 +80,8 @@ struct ProxyMoved {
 ///     while (move.aim()) move.take(shape.near(move.query_m(), move.budget(), move.needed_m()));
 ///     const ProxyMoved moved = move.finish();
 ///
-/// which move_proxy() does. Bounds: at most kMaxQueries queries, which share the budget, and about
-/// 2,500 instructions for each.
+/// which move_proxy() does. Bounds: at most kMaxQueries queries, which share the budget, and for
+/// each about 2,600 instructions in the mean, 35,000 instructions at the worst leap between walls.
 class ProxyMove {
  public:
   ProxyMove(const ProxySettings& settings, float size_m, math::Vec3 goal_m, Proxy& proxy);

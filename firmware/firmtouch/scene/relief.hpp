@@ -14,11 +14,11 @@ struct ReliefBounds {
 };
 
 /// Adds the map's depth and slope at `x_m`, in the mesh's frame. `samples`: of its section.
-/// Bounds: about 300 instructions. Result: finite; NaN: as at x_m = 0.
+/// Bounds: about 320 instructions. Result: finite; NaN: as at x_m = 0.
 void add_relief(const ReliefLayout& relief, const uint8_t* samples, math::Vec3 x_m, Cut& cut);
 
 /// Pre: the map has a power of two of samples a side, as `samples` has from map.first on.
-/// Bounds: about 40 instructions a sample.
+/// Bounds: about 165 instructions a sample.
 ReliefBounds bounds_of(const ReliefLayout& relief, const uint8_t* samples);
 
 }  // namespace firmtouch::scene

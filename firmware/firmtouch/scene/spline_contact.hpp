@@ -37,7 +37,7 @@ struct SplineTouch {
 /// A sheet pushes a tool that was clear of it on its free side, however deep the tool is pressed.
 /// It stops when a border, or a crease that points to the tool, is nearest behind it, or when a
 /// tick jumps farther than the radius plus 2 % of the extent.
-/// Bounds: one query of at most `budget` units, and about 250 instructions; re-entrant for
+/// Bounds: one query of at most `budget` units, and about 480 instructions; re-entrant for
 /// different touches.
 void touch_spline(const SplineObject& object, float radius_m, math::Vec3 position_m,
                   query::Budget budget, SplineTouch& touch, servo::LocalModel& model);

@@ -10,7 +10,7 @@ using StoredObjects = core::Span<const ObjectLayout>;
 
 /// Proves a section of type kObjectsSection, except that the meshes exist; `to` refers to its bytes
 /// if the verdict is passed, and is empty if not. The element of a verdict is the object.
-/// Bounds: about 8,000 instructions.
+/// Bounds: at most 45,000 instructions.
 core::Verdict open(core::Bytes section, StoredObjects& to);
 
 /// Pre: of a section that open() has proven.

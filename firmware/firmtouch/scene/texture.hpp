@@ -30,7 +30,7 @@ struct Cut {
 };
 
 /// At `x_m`, both in the mesh's frame.
-/// Bounds: about 90 instructions a wave. Result: finite; NaN: as at a crest.
+/// Bounds: about 100 instructions a wave. Result: finite; NaN: as at a crest.
 /// Error: x_m rounds by 2^-24: 2^-23 pi |x| / length of the height.
 Cut cut_at(const TextureLayout& texture, math::Vec3 x_m);
 

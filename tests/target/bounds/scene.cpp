@@ -1,0 +1,312 @@
+#include <float.h>
+
+#include "firmtouch/curve/guided_point.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/curve_guide.hpp"
+#include "firmtouch/scene/guide_step.hpp"
+#include "firmtouch/scene/material_touch.hpp"
+#include "firmtouch/scene/mesh_contact.hpp"
+#include "firmtouch/scene/mesh_touched.hpp"
+#include "firmtouch/scene/object.hpp"
+#include "firmtouch/scene/proxy_contact.hpp"
+#include "firmtouch/scene/relief.hpp"
+#include "firmtouch/scene/spline_contact.hpp"
+#include "firmtouch/scene/stored_objects.hpp"
+#include "firmtouch/scene/stored_tool.hpp"
+#include "firmtouch/spline/closest_point.hpp"
+#include "target/bounds/asset.hpp"
+#include "target/bounds/meter.hpp"
+#include "target/random.hpp"
+
+namespace firmtouch::target {
+namespace {
+
+using math::Vec3;
+
+constexpr uint32_t kTicks = 20000;
+constexpr query::Budget kBudget{10000};
+
+/// A hand near a surface: it creeps, or leaps.
+class Hand {
+ public:
+  Hand(const float* low_m, const float* high_m, uint32_t seed) : random_(seed) {
+    low_m_ = {low_m[0], low_m[1], low_m[2]};
+    size_m_ = Vec3{high_m[0], high_m[1], high_m[2]} - low_m_;
+    extent_m_ = math::length(size_m_);
+    leap();
+  }
+  float extent_m() const { return extent_m_; }
+  Random& random() { return random_; }
+  /// `surface_m`: where the surface is near, of the last query.
+  Vec3 next(Vec3 surface_m) {
+    if (random_.below(50) == 0)
+      leap();
+    else if (random_.below(50) == 0)
+      at_m_ = surface_m;
+    else
+      at_m_ = at_m_ + random_.cube() * random_.scale(1e-4f * extent_m_, 5);
+    return at_m_;
+  }
+
+ private:
+  void leap() {
+    const Vec3 part = random_.cube() * 0.6f;
+    at_m_ =
+        low_m_ + size_m_ * 0.5f + Vec3{part.x * size_m_.x, part.y * size_m_.y, part.z * size_m_.z};
+  }
+  Random random_;
+  Vec3 low_m_, size_m_, at_m_;
+  float extent_m_;
+};
+
+// What a call takes beside the query that it makes, which is made again.
+template <class Touch, class Contact, class Query>
+void take_beside(Worst& worst, Touch& touch, const Contact& contact, const Query& query) {
+  Touch same = touch;
+  const uint32_t own = instructions_of([&] { query(same); });
+  const uint32_t all = instructions_of([&] { contact(touch); });
+  asm volatile("" ::"r"(&same), "r"(&touch) : "memory");
+  worst.take(all > own ? all - own : 0);
+}
+
+void measure_mesh_contact() {
+  scene::MeshObject object;
+  object.mesh = &asset().mesh;
+  object.material = {1000, 2};
+  const mesh::Head& head = object.mesh->head();
+  Hand hand(head.low_m, head.high_m, 7);
+  const float radius_m = 0.003f;
+  scene::MeshTouch touch;
+  servo::LocalModel model;
+  Worst worst;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    const Vec3 at_m = hand.next(touch.closest.point_m);
+    query::Budget budget = kBudget;
+    if (touch.hint.sign > 0) budget.band_m = radius_m + 0.02f * head.diagonal_m;
+    scene::begin_model(model, at_m, i, 10);
+    take_beside(
+        worst, touch,
+        [&](scene::MeshTouch& to) {
+          scene::touch_mesh<>(object, radius_m, at_m, kBudget, to, model);
+        },
+        [&](scene::MeshTouch& to) {
+          to.closest = mesh::closest_point(*object.mesh, at_m, budget, to.hint);
+        });
+  }
+  print_figure("scene/mesh_contact.hpp", worst);
+}
+
+void measure_spline_contact() {
+  scene::SplineObject object;
+  object.surface = &asset().spline;
+  object.material = {1000, 2};
+  const auto& head = object.surface->head();
+  Hand hand(head.low_m, head.high_m, 8);
+  const float radius_m = 0.003f;
+  scene::SplineTouch touch;
+  servo::LocalModel model;
+  Worst worst;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    const Vec3 at_m = hand.next(touch.closest.point_m);
+    scene::begin_model(model, at_m, i, 10);
+    take_beside(
+        worst, touch,
+        [&](scene::SplineTouch& to) {
+          scene::touch_spline(object, radius_m, at_m, kBudget, to, model);
+        },
+        [&](scene::SplineTouch& to) {
+          to.closest = spline::closest_point(*object.surface, at_m, kBudget, to.hint);
+        });
+  }
+  print_figure("scene/spline_contact.hpp", worst);
+}
+
+void measure_curve_guide() {
+  scene::CurveGuide guide;
+  guide.curve = &asset().curve;
+  guide.material = {500, 1};
+  const curve::Head& head = guide.curve->head();
+  guide.snap_m = 0.05f * head.diagonal_m;
+  guide.release_m = 0.1f * head.diagonal_m;
+  guide.tunnel_m = 0.001f * head.diagonal_m;
+  guide.arc_penalty = 0.1f;
+  guide.free_side = {0, 0, 1};
+  Hand hand(head.low_m, head.high_m, 9);
+  const curve::Hold hold{guide.arc_penalty * head.length_m, guide.release_m};
+  scene::CurveGuideTouch touch;
+  servo::LocalModel model;
+  Worst worst;
+  constexpr scene::Drive::Kind kKinds[] = {scene::Drive::Kind::kFree, scene::Drive::Kind::kPush,
+                                           scene::Drive::Kind::kLead};
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    guide.drive = {kKinds[i / 64 % 3], 1, 0.1f, 0.001f};
+    guide.ends = i / 256 % 2 == 0 ? scene::Ends::kContinue : scene::Ends::kHold;
+    const Vec3 at_m = hand.next(touch.closest.point_m);
+    scene::begin_model(model, at_m, i, 10);
+    take_beside(
+        worst, touch,
+        [&](scene::CurveGuideTouch& to) { scene::follow_curve(guide, at_m, kBudget, to, model); },
+        [&](scene::CurveGuideTouch& to) {
+          to.following.is_following = to.is_held;
+          const auto followed = curve::follow(*guide.curve, at_m, hold, kBudget, to.following);
+          to.closest = followed.closest;
+        });
+  }
+  print_figure("scene/curve_guide.hpp", worst);
+}
+
+// The mesh as a shape; counts what its queries take.
+struct Counted {
+  const scene::MaterialMeshObject& object;
+  mesh::Hint hint;
+  uint32_t queries = 0, taken = 0;
+  Vec3 surface_m;
+  float size_m() const { return object.mesh->head().diagonal_m; }
+  scene::Near near(Vec3 x_m, query::Budget budget, float needed_m) {
+    scene::Near near;
+    const scene::MeshTouchedWith<false, false, scene::MaterialMeshObject> shape{object, hint};
+    const uint32_t before = hal::clock_work();
+    near = shape.near(x_m, budget, needed_m);
+    const uint32_t after = hal::clock_work();
+    taken += instructions(after - before);
+    ++queries;
+    surface_m = near.feature.corner[0];
+    return near;
+  }
+};
+
+// Of a tick through a proxy, and of what materials add to it: as touch_materials() goes.
+struct TouchCosts {
+  Worst query, plain, waves, relief;
+  uint32_t all = 0, queries = 0;
+};
+
+void measure_touch() {
+  scene::MaterialMeshObject object;
+  object.mesh = &asset().mesh;
+  object.materials = &asset().materials;
+  const mesh::Head& head = object.mesh->head();
+  Hand hand(head.low_m, head.high_m, 10);
+  Counted shape{object, {}, 0, 0, {}};
+  scene::ProxyContact contact;
+  contact.material = {1000, 2};
+  contact.is_on = true;
+  contact.passed_s = 0.001f;
+  contact.settings.budget = kBudget;
+  scene::ProxyTouch touch;
+  scene::MaterialTouch state;
+  servo::LocalModel model;
+  TouchCosts worst;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    const Vec3 at_m = hand.next(shape.surface_m);
+    if (i % 500 == 0) {
+      contact.settings.radius_m = hand.random().scale(2e-4f, 4);
+      contact.settings.friction_static = i % 1000 == 0 ? 0 : 0.5f;
+      contact.settings.friction_dynamic = contact.settings.friction_static * 0.8f;
+    }
+    contact.position_m = at_m;
+    contact.proxy_m = touch.proxy.position_m;
+    contact.has_proxy = i > 0;
+    scene::begin_model(model, at_m, i, 10);
+    scene::ProxyContact used = contact;
+    const uint8_t before = state.textured;
+    uint32_t added = instructions_of([&] { scene::begin_materials(used, touch, state); });
+    shape.queries = shape.taken = 0;
+    const uint32_t all = instructions_of([&] { scene::touch_by_proxy(used, shape, touch, model); });
+    added += instructions_of([&] { scene::end_materials(contact, object, touch, state, model); });
+    const uint32_t own = all > shape.taken ? all - shape.taken : 0;
+    const uint32_t queries = shape.queries == 0 ? 1 : shape.queries;
+    worst.query.take(own / queries);
+    worst.all += own, worst.queries += queries;
+    const uint8_t used_texture = before > state.textured ? before : state.textured;
+    (used_texture >= 3 ? worst.relief : used_texture == 2 ? worst.waves : worst.plain).take(added);
+  }
+  print_figure("scene/material_touch.hpp", worst.plain);
+  print_figure("scene/material_touch.hpp", worst.waves);
+  print_figure("scene/material_touch.hpp", worst.relief);
+  Worst mean;
+  mean.take(worst.all / worst.queries);
+  print_figure("scene/proxy.hpp", mean);
+  print_figure("scene/proxy.hpp", worst.query);
+}
+
+void measure_textures() {
+  const scene::StoredMaterials& materials = asset().materials;
+  const scene::TextureLayout& waves = materials.textures()[1];
+  const scene::ReliefLayout& relief = materials.reliefs()[2];
+  Random random(11);
+  Worst wave, map, bounds;
+  scene::Cut cut;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    const Vec3 at_m = random.cube() * random.scale(1e-3f, 12);
+    const uint32_t both = instructions_of([&] { cut = scene::cut_at(waves, at_m); });
+    wave.take((both + 1) / 2);
+    map.of([&] {
+      cut = {};
+      scene::add_relief(relief, materials.samples().data(), at_m, cut);
+    });
+    asm volatile("" ::"r"(&cut) : "memory");
+  }
+  scene::ReliefBounds most;
+  const uint32_t samples = relief.side * relief.side;
+  bounds.take(
+      (instructions_of([&] { most = scene::bounds_of(relief, materials.samples().data()); }) +
+       samples - 1) /
+      samples);
+  asm volatile("" ::"r"(&most) : "memory");
+  print_figure("scene/texture.hpp", wave);
+  print_figure("scene/relief.hpp", map);
+  print_figure("scene/relief.hpp", bounds);
+}
+
+void measure_stored() {
+  alignas(16) static scene::ObjectLayout objects[scene::kMaxObjects];
+  for (uint32_t i = 0; i < scene::kMaxObjects; ++i) {
+    scene::ObjectLayout& object = objects[i];
+    for (uint32_t k = 0; k + 1 < scene::kNameBytes; ++k)
+      object.name[k] = object.mesh[k] =
+          static_cast<char>(k + 2 == scene::kNameBytes ? 'a' + i : 'n');
+    for (uint32_t k = 0; k < 9; k += 4) object.rotation[k] = 1;
+    object.stiffness_N_per_m = FLT_MAX;
+  }
+  alignas(16) static scene::SphereLayout spheres[scene::kMaxSpheres];
+  Worst all_objects, all_spheres, moved;
+  core::Verdict verdict;
+  scene::StoredObjects stored;
+  scene::StoredTool tool;
+  all_objects.of([&] {
+    verdict = scene::open({reinterpret_cast<const uint8_t*>(objects), sizeof objects}, stored);
+  });
+  if (!verdict.ok()) hal::board_print("the objects are refused\n");
+  all_spheres.of([&] {
+    verdict = scene::open({reinterpret_cast<const uint8_t*>(spheres), sizeof spheres}, tool);
+  });
+  if (!verdict.ok()) hal::board_print("the tool is refused\n");
+  Random random(12);
+  scene::Object object;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    if (i % 100 == 0) {
+      object.twist = {random.cube() * random.scale(1e-3f, 10),
+                      random.cube() * random.scale(1e-3f, 19)};
+      object.pose.translation_m = random.cube() * 9.0f;
+    }
+    moved.of([&] { scene::advance(object, 0.001f); });
+    asm volatile("" ::"r"(&object) : "memory");
+  }
+  print_figure("scene/stored_objects.hpp", all_objects);
+  print_figure("scene/stored_tool.hpp", all_spheres);
+  print_figure("scene/object.hpp", moved);
+}
+
+}  // namespace
+
+void measure_scene() {
+  measure_mesh_contact();
+  measure_spline_contact();
+  measure_curve_guide();
+  measure_touch();
+  measure_textures();
+  measure_stored();
+}
+
+}  // namespace firmtouch::target
