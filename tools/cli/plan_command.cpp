@@ -82,8 +82,10 @@ std::string quoted(const std::string& word) {
 std::string rounded(double value) { return std::to_string(std::llround(value)); }
 
 void print_rows(const Planner& planner) {
-  std::printf("%-50s %-22s %9s %9s %9s %8s %15s %15s\n", "  baked with", "program", "asset B",
-              "flash B", "RAM B", "fits", "units touching", "units anywhere");
+  bool has_mesh = false;
+  for (const PlanRow& row : planner.rows()) has_mesh = has_mesh || row.triangles != 0;
+  std::printf("%-50s %-22s %9s %9s %9s %8s%s\n", "  baked with", "program", "asset B", "flash B",
+              "RAM B", "fits", has_mesh ? "  units touching  units anywhere" : "");
   for (size_t i = 0; i < planner.rows().size(); ++i) {
     const PlanRow& row = planner.rows()[i];
     const bool is_chosen = static_cast<int>(i) == planner.chosen();
@@ -101,9 +103,9 @@ void print_rows(const Planner& planner) {
                   row.work.random_mean, row.work.random_worst);
     std::printf("\n");
   }
-  std::printf(
-      "units: mean and worst of 2,000 mesh queries, of a tool that touches, and at points in 1.5 "
-      "boxes\n\n");
+  std::printf("%s\n", has_mesh ? "units: mean and worst of 2,000 mesh queries, of a tool that "
+                                 "touches, and at points in 1.5 boxes\n"
+                               : "");
 }
 
 // What the pools of a tick can be at this rate.
