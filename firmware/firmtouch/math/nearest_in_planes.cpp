@@ -23,9 +23,6 @@ class Reach {
   uint32_t count() const { return count_; }
   void drop_to(uint32_t count) { count_ = count; }
 
-  /// Whether the plane, as the last, would push: its multiplier is at least 0.
-  bool would_push(const HalfSpace& plane) const { return lacking_m(plane) >= 0.0f; }
-
   /// Result: false, nothing added, if the normal depends on those before.
   bool add(const HalfSpace& plane) {
     Vec3 d = plane.normal;
@@ -37,7 +34,7 @@ class Reach {
     for (uint32_t i = 0; i < count_; ++i)
       d = d - direction_[i] * (dot(d, direction_[i]) / size2_[i]);
     const float d2 = dot(d, d);
-    if (!(d2 > kMinSine2)) return false;
+    if (count_ == 3 || !(d2 > kMinSine2)) return false;
     direction_[count_] = d;
     size2_[count_] = d2;
     along_[count_] = lacking_m(plane) / d2;
@@ -46,18 +43,25 @@ class Reach {
     return true;
   }
 
-  /// Whether no plane pulls: all multipliers are at least 0.
-  bool is_pushed() const {
-    float along[3] = {along_[0], along_[1], along_[2]};
-    // From coefficients of the directions to multipliers of the normals, the last first.
-    for (uint32_t k = count_; k-- > 0;) {
-      if (!(along[k] >= 0.0f)) return false;
-      for (uint32_t i = 0; i < k; ++i) along[i] -= share_[k][i] * along[k];
-    }
-    return true;
+  /// How strongly each plane pushes: goal and point differ by the sum of these times the normals.
+  void find_pushes(float (&push)[3]) const {
+    for (uint32_t k = 0; k < count_; ++k) push[k] = along_[k];
+    to_normals(push);
+  }
+
+  /// What of each normal adds up to that of `plane`, which add() has refused.
+  void find_parts(float (&part)[3]) const {
+    for (uint32_t k = 0; k < count_; ++k) part[k] = share_[count_][k];
+    to_normals(part);
   }
 
  private:
+  // From coefficients of the directions to those of the normals, the last first.
+  void to_normals(float (&of)[3]) const {
+    for (uint32_t k = count_; k-- > 1;)
+      for (uint32_t i = 0; i < k; ++i) of[i] -= share_[k][i] * of[k];
+  }
+
   float lacking_m(const HalfSpace& plane) const {
     return plane.offset_m - dot(plane.normal, point_m());
   }
@@ -75,137 +79,120 @@ class Reach {
   Bare point_m_[4];
   Bare direction_[3];
   float size2_[3];
-  float share_[3][3];  // share_[k][i]: of direction i in normal k
+  float share_[4][3];  // share_[k][i]: of direction i in normal k
   float along_[3];     // coefficients of the directions
   uint32_t count_ = 0;
 };
 
-bool is_finite(const HalfSpace& plane) {
-  const float sum = (plane.normal.x + plane.normal.y) + (plane.normal.z + plane.offset_m);
-  return sum - sum <= 0.0f;
-}
-
-bool is_outside_any(const HalfSpace* planes, uint32_t count, Vec3 point_m, float tolerance_m) {
-  for (uint32_t i = 0; i < count; ++i)
-    if (planes[i].offset_m - dot(planes[i].normal, point_m) > tolerance_m) return true;
-  return false;
-}
-
-// Whether these planes alone hold the answer, which is unique. Pre: `reach` has no plane.
-bool is_held_by(const ActivePlanes& active, const HalfSpace* planes, uint32_t count, Vec3 goal_m,
-                Reach& reach, NearestInPlanes& found) {
-  if (active.count > 3) return false;
-  if (active.count == 0) {
-    found = {goal_m, active, true};
-    return !is_outside_any(planes, count, goal_m, 0.0f);
-  }
-  for (uint32_t n = 0; n < active.count; ++n) {
-    const uint32_t i = active.plane[n];
-    if (i >= count || !is_finite(planes[i]) || !reach.add(planes[i])) return false;
-  }
-  if (!reach.is_pushed()) return false;
-  if (is_outside_any(planes, count, reach.point_m(), kTolerance * length(goal_m))) return false;
-  found = {reach.point_m(), active, true};
-  return true;
-}
-
-// The optimum of the planes that were violated so far, one more at a time.
+// A dual method: from the optimum of some planes to that of them and of the one that it violates
+// most, until none is violated. On the way there planes that would pull are let go.
 class Search {
  public:
-  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m, Reach& reach)
-      : planes_(planes), reach_(reach) {
-    for (uint32_t i = 0; i < count && i < kMaxHalfSpaces; ++i)
-      if (is_finite(planes[i])) order_[count_++] = i;
-    best_.point_m = goal_m;
-    tolerance_m_ = kTolerance * length(goal_m);
+  Search(const HalfSpace* planes, uint32_t count, Vec3 goal_m)
+      : planes_(planes),
+        count_(count < kMaxHalfSpaces ? count : kMaxHalfSpaces),
+        tolerance_m_(kTolerance * length(goal_m)),
+        reach_(goal_m) {}
+
+  /// Begins with the optimum of these planes, if all of them push.
+  void begin(const ActivePlanes& before) {
+    if (before.count > 3) return;
+    for (; active_.count < before.count; ++active_.count) {
+      const uint8_t i = before.plane[active_.count];
+      if (i >= count_ || !is_finite(planes_[i]) || !reach_.add(planes_[i])) return forget();
+      active_.plane[active_.count] = i;
+    }
+    reach_.find_pushes(push_);
+    for (uint32_t n = 0; n < active_.count; ++n)
+      if (!(push_[n] >= 0.0f)) return forget();
   }
 
   NearestInPlanes run() {
     // The goal itself is only the answer if it violates nothing.
-    float least_m = 0.0f;
-    for (uint32_t known = 0; known <= count_; ++known) {
-      if (!find_violated(known, least_m)) {
-        best_.is_found = true;
-        return best_;
-      }
+    float least_m = active_.count == 0 ? 0.0f : tolerance_m_;
+    for (uint32_t step = 0;; ++step) {
+      uint8_t violated = 0;
+      const bool is_found = !find_violated(least_m, violated);
       least_m = tolerance_m_;
-      if (known == count_ || !solve(known)) return best_;
+      if (is_found || step == kMaxSteps || !add(violated))
+        return {reach_.point_m(), active_, is_found};
     }
-    return best_;
   }
 
  private:
-  const HalfSpace& plane_at(uint32_t place) const { return planes_[order_[place]]; }
+  // Each optimum is farther from the goal than the one before, except for rounding.
+  static constexpr uint32_t kMaxSteps = 12;
 
-  // Moves the plane that is violated most to place `known`. Result: false if none is by more than
-  // `least_m`.
-  bool find_violated(uint32_t known, float least_m) {
-    uint32_t at = count_;
-    for (uint32_t i = known; i < count_; ++i) {
-      const float out_m = violation_m(i, best_.point_m);
-      if (out_m > least_m) least_m = out_m, at = i;
+  static bool is_finite(const HalfSpace& plane) {
+    const float sum = (plane.normal.x + plane.normal.y) + (plane.normal.z + plane.offset_m);
+    return sum - sum <= 0.0f;
+  }
+
+  void forget() {
+    active_.count = 0;
+    reach_.drop_to(0);
+  }
+
+  // The plane that is violated most. Result: false if none is by more than `least_m`.
+  bool find_violated(float least_m, uint8_t& violated) const {
+    const Vec3 point_m = reach_.point_m();
+    bool is_any = false;
+    for (uint32_t i = 0; i < count_; ++i) {
+      const float out_m = planes_[i].offset_m - dot(planes_[i].normal, point_m);
+      if (out_m > least_m && is_finite(planes_[i]))
+        least_m = out_m, violated = static_cast<uint8_t>(i), is_any = true;
     }
-    if (at == count_) return false;
-    const uint32_t plane = order_[at];
-    order_[at] = order_[known];
-    order_[known] = plane;
+    return is_any;
+  }
+
+  // Result: false if the planes have no point in common.
+  bool add(uint8_t plane) {
+    for (;;) {
+      const uint32_t before = active_.count;
+      const bool is_added = reach_.add(planes_[plane]);
+      float change[3];  // of the pushes, on the whole way or for a push of 1
+      if (is_added)
+        reach_.find_pushes(change);
+      else
+        reach_.find_parts(change);
+      for (uint32_t n = 0; n < before; ++n)
+        change[n] = is_added ? change[n] - push_[n] : -change[n];
+      // The first push that ends.
+      float way = is_added ? 1.0f : FLT_MAX;
+      uint32_t first = before;
+      for (uint32_t n = 0; n < before; ++n)
+        if (push_[n] + way * change[n] < 0.0f) way = push_[n] / -change[n], first = n;
+      if (first == before) {
+        if (!is_added) return false;
+        active_.plane[active_.count++] = plane;
+        for (uint32_t n = 0; n < before; ++n) push_[n] += change[n];
+        push_[before] = change[before];
+        return true;
+      }
+      for (uint32_t n = 0; n < before; ++n) push_[n] += way * change[n];
+      if (!let_go(first)) return false;
+    }
+  }
+
+  // Result: false if what is left depends on each other, by rounding.
+  bool let_go(uint32_t first) {
+    --active_.count;
+    for (uint32_t n = first; n < active_.count; ++n) {
+      active_.plane[n] = active_.plane[n + 1];
+      push_[n] = push_[n + 1];
+    }
+    reach_.drop_to(first);
+    for (uint32_t n = first; n < active_.count; ++n)
+      if (!reach_.add(planes_[active_.plane[n]])) return false;
     return true;
   }
 
-  // The optimum of the planes up to `last`, which is violated by that of the planes before it: so
-  // it is active. Result: false if there is none; the best subset is kept.
-  bool solve(uint32_t last) {
-    best_violation_m_ = FLT_MAX;
-    if (!choose(last, 0, 3)) return false;  // it need not push alone
-    if (try_subset(last)) return true;
-    for (uint32_t size = 2; size <= 3; ++size) {
-      for (uint32_t i = 0; i < last; ++i) {
-        if (!choose(i, 1, size)) continue;
-        if (size == 2 && try_subset(last)) return true;
-        for (uint32_t j = i + 1; size == 3 && j < last; ++j)
-          if (choose(j, 2, size) && try_subset(last)) return true;
-      }
-    }
-    return false;
-  }
-
-  // Result: false if no subset of `size` that begins with `before` planes and this one can push.
-  bool choose(uint32_t plane, uint32_t before, uint32_t size) {
-    reach_.drop_to(before);
-    chosen_[before] = plane;
-    if (before + 1 == size && !reach_.would_push(plane_at(plane))) return false;
-    return reach_.add(plane_at(plane));
-  }
-
-  float violation_m(uint32_t plane, Vec3 point_m) const {
-    return plane_at(plane).offset_m - dot(plane_at(plane).normal, point_m);
-  }
-
-  // Result: whether the chosen planes solve the problem of the planes up to `last`.
-  bool try_subset(uint32_t last) {
-    if (!reach_.is_pushed()) return false;
-    float worst_m = 0.0f;
-    for (uint32_t i = 0; i <= last; ++i) {
-      const float out_m = violation_m(i, reach_.point_m());
-      if (out_m > worst_m) worst_m = out_m;
-    }
-    if (!(worst_m < best_violation_m_)) return false;
-    best_violation_m_ = worst_m;
-    best_.point_m = reach_.point_m();
-    best_.active.count = static_cast<uint8_t>(reach_.count());
-    for (uint32_t n = 0; n < reach_.count(); ++n)
-      best_.active.plane[n] = static_cast<uint8_t>(order_[chosen_[n]]);
-    return worst_m <= tolerance_m_;
-  }
-
   const HalfSpace* planes_;
-  uint32_t order_[kMaxHalfSpaces];
-  uint32_t count_ = 0;
-  Reach& reach_;
-  uint32_t chosen_[3];
-  float tolerance_m_ = 0;
-  float best_violation_m_ = FLT_MAX;
-  NearestInPlanes best_;
+  uint32_t count_;
+  float tolerance_m_;
+  Reach reach_;
+  ActivePlanes active_;  // those of reach_
+  float push_[3];
 };
 
 bool is_allowed(const HalfSpace* planes, uint32_t count, Vec3 point_m, float tolerance_m) {
@@ -220,12 +207,10 @@ bool is_allowed(const HalfSpace* planes, uint32_t count, Vec3 point_m, float tol
 
 NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
                                   ActivePlanes before) {
-  if (!is_finite(goal_m)) return {};
-  NearestInPlanes found;
-  const uint32_t known = count < kMaxHalfSpaces ? count : kMaxHalfSpaces;
-  Reach reach(goal_m);
-  if (is_held_by(before, planes, known, goal_m, reach, found)) return found;
-  return Search(planes, count, goal_m, reach).run();
+  if (!math::is_finite(goal_m)) return {};
+  Search search(planes, count, goal_m);
+  search.begin(before);
+  return search.run();
 }
 
 Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,

@@ -29,15 +29,17 @@ struct NearestInPlanes {
   bool is_found = false;
 };
 
-/// The point nearest to `goal_m` with all of `planes`, with at most three of them active. The plane
-/// that is violated most is added to those before it, until none is violated. It is active then,
-/// because the problem is convex; which others are is found by trying subsets in the order of their
-/// sizes, until one satisfies the conditions of Kuhn and Tucker. `before`: the active planes of a
-/// like problem, in any state. If they satisfy the conditions here, nothing else is tried.
-/// Bounds: at most 92 subsets of 8 planes, those that push with at most 8 products.
+/// The point nearest to `goal_m` with all of `planes`, with at most three of them active. From the
+/// optimum of some planes the dual method goes to that of them and of the plane that is violated
+/// most, and lets go of planes that would pull, until none is violated. `before`: the active planes
+/// of a like problem, in any state; if all of them push here, it begins with them.
+/// Bounds: at most 12 planes join, each after at most 3 that are let go; 9,500 instructions for 7
+///         planes, the worst that a search found.
 /// Result: finite where all input is finite and below 1e6 m. Planes beyond kMaxHalfSpaces are
 ///         ignored, and so are those with NaN. No plane: the goal. A goal with NaN: the origin.
 /// Error: 1e-5 |goal|; planes that agree in direction to 1e-5 rad count as one.
+/// Source: Goldfarb & Idnani 1983, A numerically stable dual method for solving strictly convex
+///         quadratic programs.
 NearestInPlanes nearest_in_planes(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
                                   ActivePlanes before = {});
 

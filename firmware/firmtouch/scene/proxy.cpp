@@ -137,8 +137,7 @@ void ProxyMove::begin_planes() {
     else
       drop(i);
   }
-  if (aimed_radius_m_ > proxy_.radius_m)
-    for (uint32_t i = 0; i < proxy_.feature_count; ++i) take_plane(i);
+  if (aimed_radius_m_ > proxy_.radius_m) take_all();
 }
 
 // The plane between a feature and the proxy, for the sphere's centre to stay in front of. A place
@@ -162,6 +161,11 @@ bool ProxyMove::take_active() {
   return taken_ != before;
 }
 
+void ProxyMove::take_all() {
+  for (uint32_t i = 0; i < proxy_.feature_count; ++i)
+    if ((taken_ >> i & 1u) == 0) take_plane(i);
+}
+
 // Where the proxy comes to rest for the planes of the working set, from where it is. Only planes
 // that hold it are taken anew, at most once each.
 math::Slide ProxyMove::rest() {
@@ -171,10 +175,14 @@ math::Slide ProxyMove::rest() {
   begin_planes();
   take_active();  // most often the same hold it again: then it is solved once
   for (;;) {
+    if (again_left_ == 0) take_all();
     const math::NearestInPlanes nearest =
         math::nearest_in_planes(proxy_.plane, proxy_.feature_count, way_m, proxy_.active);
     proxy_.active = nearest.active;
-    if (take_active()) continue;
+    if (take_active()) {
+      --again_left_;
+      continue;
+    }
     return math::slide_with_friction(proxy_.plane, proxy_.feature_count, way_m, nearest, friction_);
   }
 }

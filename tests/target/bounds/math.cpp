@@ -1,7 +1,9 @@
 #include "firmtouch/core/crc32.hpp"
 #include "firmtouch/math/arithmetic_check.hpp"
 #include "firmtouch/math/elementary.hpp"
+#include "firmtouch/math/nearest_in_planes.hpp"
 #include "firmtouch/math/sine_cosine.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/query/coherence.hpp"
 #include "firmtouch/query/hint.hpp"
 #include "firmtouch/record/ring.hpp"
@@ -95,6 +97,62 @@ void measure_carry(Random& random) {
   print_figure("query/coherence.hpp", worst);
 }
 
+// Planes through and behind the origin, and those whose solution took longest, changed a little.
+struct Planes {
+  math::HalfSpace plane[7];
+  math::Vec3 goal_m;
+  uint32_t taken = 0;
+};
+
+math::Vec3 unit(math::Vec3 v) {
+  const float size = math::length(v);
+  return size > 0.01f ? v * (1.0f / size) : math::Vec3{0, 0, 1};
+}
+
+void put_planes(Random& random, Planes& planes) {
+  for (math::HalfSpace& plane : planes.plane) {
+    plane.normal = unit(random.cube());
+    plane.offset_m = random.below(3) == 0 ? 0 : -0.1f * random.scale(1e-6f, 20);
+  }
+  planes.goal_m = random.cube();
+}
+
+void change_planes(Random& random, Planes& planes) {
+  const float by = random.scale(1e-4f, 12);
+  const uint32_t k = random.below(8);
+  if (k == 7) {
+    planes.goal_m = planes.goal_m + random.cube() * by;
+    return;
+  }
+  math::HalfSpace& plane = planes.plane[k];
+  plane.normal = unit(plane.normal + random.cube() * by);
+  const float offset_m = plane.offset_m + 0.1f * by * random.sign();
+  plane.offset_m = offset_m < 0 ? offset_m : 0;
+}
+
+void measure_planes() {
+  static Planes worst[16];
+  Random random(13);
+  Worst all;
+  math::NearestInPlanes nearest;
+  for (uint32_t i = 0; i < 40000; ++i) {
+    Planes now = worst[random.below(16)];
+    if (i < 1000 || random.below(3) == 0)
+      put_planes(random, now);
+    else
+      change_planes(random, now);
+    now.taken =
+        instructions_of([&] { nearest = math::nearest_in_planes(now.plane, 7, now.goal_m); });
+    asm volatile("" ::"r"(&nearest) : "memory");
+    all.take(now.taken);
+    Planes* least = worst;
+    for (Planes& one : worst)
+      if (one.taken < least->taken) least = &one;
+    if (now.taken > least->taken) *least = now;
+  }
+  print_figure("math/nearest_in_planes.hpp", all);
+}
+
 }  // namespace
 
 void measure_math() {
@@ -113,6 +171,7 @@ void measure_math() {
   check.of([] { (void)math::arithmetic_is_sound(); });
   print_figure("math/arithmetic_check.hpp", check);
   measure_carry(random);
+  measure_planes();
   measure_crc32();
   measure_ring();
 }

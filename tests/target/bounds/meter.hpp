@@ -48,5 +48,6 @@ inline void print_figure(const char* header, const Worst& worst) {
 void measure_math();
 void measure_mesh();
 void measure_scene();
+void measure_touch();
 
 }  // namespace firmtouch::target

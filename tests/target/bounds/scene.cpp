@@ -4,17 +4,15 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
 #include "firmtouch/scene/guide_step.hpp"
-#include "firmtouch/scene/material_touch.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
-#include "firmtouch/scene/mesh_touched.hpp"
 #include "firmtouch/scene/object.hpp"
-#include "firmtouch/scene/proxy_contact.hpp"
 #include "firmtouch/scene/relief.hpp"
 #include "firmtouch/scene/spline_contact.hpp"
 #include "firmtouch/scene/stored_objects.hpp"
 #include "firmtouch/scene/stored_tool.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "target/bounds/asset.hpp"
+#include "target/bounds/hand.hpp"
 #include "target/bounds/meter.hpp"
 #include "target/random.hpp"
 
@@ -25,39 +23,6 @@ using math::Vec3;
 
 constexpr uint32_t kTicks = 20000;
 constexpr query::Budget kBudget{10000};
-
-/// A hand near a surface: it creeps, or leaps.
-class Hand {
- public:
-  Hand(const float* low_m, const float* high_m, uint32_t seed) : random_(seed) {
-    low_m_ = {low_m[0], low_m[1], low_m[2]};
-    size_m_ = Vec3{high_m[0], high_m[1], high_m[2]} - low_m_;
-    extent_m_ = math::length(size_m_);
-    leap();
-  }
-  float extent_m() const { return extent_m_; }
-  Random& random() { return random_; }
-  /// `surface_m`: where the surface is near, of the last query.
-  Vec3 next(Vec3 surface_m) {
-    if (random_.below(50) == 0)
-      leap();
-    else if (random_.below(50) == 0)
-      at_m_ = surface_m;
-    else
-      at_m_ = at_m_ + random_.cube() * random_.scale(1e-4f * extent_m_, 5);
-    return at_m_;
-  }
-
- private:
-  void leap() {
-    const Vec3 part = random_.cube() * 0.6f;
-    at_m_ =
-        low_m_ + size_m_ * 0.5f + Vec3{part.x * size_m_.x, part.y * size_m_.y, part.z * size_m_.z};
-  }
-  Random random_;
-  Vec3 low_m_, size_m_, at_m_;
-  float extent_m_;
-};
 
 // What a call takes beside the query that it makes, which is made again.
 template <class Touch, class Contact, class Query>
@@ -155,81 +120,6 @@ void measure_curve_guide() {
   print_figure("scene/curve_guide.hpp", worst);
 }
 
-// The mesh as a shape; counts what its queries take.
-struct Counted {
-  const scene::MaterialMeshObject& object;
-  mesh::Hint hint;
-  uint32_t queries = 0, taken = 0;
-  Vec3 surface_m;
-  float size_m() const { return object.mesh->head().diagonal_m; }
-  scene::Near near(Vec3 x_m, query::Budget budget, float needed_m) {
-    scene::Near near;
-    const scene::MeshTouchedWith<false, false, scene::MaterialMeshObject> shape{object, hint};
-    const uint32_t before = hal::clock_work();
-    near = shape.near(x_m, budget, needed_m);
-    const uint32_t after = hal::clock_work();
-    taken += instructions(after - before);
-    ++queries;
-    surface_m = near.feature.corner[0];
-    return near;
-  }
-};
-
-// Of a tick through a proxy, and of what materials add to it: as touch_materials() goes.
-struct TouchCosts {
-  Worst query, plain, waves, relief;
-  uint32_t all = 0, queries = 0;
-};
-
-void measure_touch() {
-  scene::MaterialMeshObject object;
-  object.mesh = &asset().mesh;
-  object.materials = &asset().materials;
-  const mesh::Head& head = object.mesh->head();
-  Hand hand(head.low_m, head.high_m, 10);
-  Counted shape{object, {}, 0, 0, {}};
-  scene::ProxyContact contact;
-  contact.material = {1000, 2};
-  contact.is_on = true;
-  contact.passed_s = 0.001f;
-  contact.settings.budget = kBudget;
-  scene::ProxyTouch touch;
-  scene::MaterialTouch state;
-  servo::LocalModel model;
-  TouchCosts worst;
-  for (uint32_t i = 0; i < kTicks; ++i) {
-    const Vec3 at_m = hand.next(shape.surface_m);
-    if (i % 500 == 0) {
-      contact.settings.radius_m = hand.random().scale(2e-4f, 4);
-      contact.settings.friction_static = i % 1000 == 0 ? 0 : 0.5f;
-      contact.settings.friction_dynamic = contact.settings.friction_static * 0.8f;
-    }
-    contact.position_m = at_m;
-    contact.proxy_m = touch.proxy.position_m;
-    contact.has_proxy = i > 0;
-    scene::begin_model(model, at_m, i, 10);
-    scene::ProxyContact used = contact;
-    const uint8_t before = state.textured;
-    uint32_t added = instructions_of([&] { scene::begin_materials(used, touch, state); });
-    shape.queries = shape.taken = 0;
-    const uint32_t all = instructions_of([&] { scene::touch_by_proxy(used, shape, touch, model); });
-    added += instructions_of([&] { scene::end_materials(contact, object, touch, state, model); });
-    const uint32_t own = all > shape.taken ? all - shape.taken : 0;
-    const uint32_t queries = shape.queries == 0 ? 1 : shape.queries;
-    worst.query.take(own / queries);
-    worst.all += own, worst.queries += queries;
-    const uint8_t used_texture = before > state.textured ? before : state.textured;
-    (used_texture >= 3 ? worst.relief : used_texture == 2 ? worst.waves : worst.plain).take(added);
-  }
-  print_figure("scene/material_touch.hpp", worst.plain);
-  print_figure("scene/material_touch.hpp", worst.waves);
-  print_figure("scene/material_touch.hpp", worst.relief);
-  Worst mean;
-  mean.take(worst.all / worst.queries);
-  print_figure("scene/proxy.hpp", mean);
-  print_figure("scene/proxy.hpp", worst.query);
-}
-
 void measure_textures() {
   const scene::StoredMaterials& materials = asset().materials;
   const scene::TextureLayout& waves = materials.textures()[1];
@@ -304,7 +194,6 @@ void measure_scene() {
   measure_mesh_contact();
   measure_spline_contact();
   measure_curve_guide();
-  measure_touch();
   measure_textures();
   measure_stored();
 }
