@@ -6,7 +6,10 @@
 #include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "firmtouch/hull/view.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
+#include "firmtouch/scene/mesh_touched.hpp"
+#include "firmtouch/scene/proxy.hpp"
 #include "harness/test.hpp"
 #include "hull/add_hull.hpp"
 #include "mesh/brute_force.hpp"
@@ -23,11 +26,11 @@ struct Rig {
   mesh::View view;
   hull::View hull_view;
   scene::MeshObject object;
-  Rig() {
+  explicit Rig(uint32_t faces = 400) {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "part", {}, report);
     CHECK(report.problem.empty());
-    hull_test::add_hull(sections, 400);
+    hull_test::add_hull(sections, faces);
     CHECK(tools::open_baked(sections, "part", view).ok());
     CHECK(tools::open_baked(sections, "part", hull_view).ok());
     const hull::BaseHull& base_hull = hull_view.base_hull();
@@ -116,4 +119,42 @@ TEST(WithTimeForTheMeshABaseHullChangesNothing) {
     CHECK_EQ(a.free_radius_m, b.free_radius_m);
     CHECK_EQ(a.plane_count, b.plane_count);
   }
+}
+
+// With 20 work units a tick: a tool that neither follows its hand nor says so would be stuck.
+TEST(LeavingHand_WithBaseHullAndLittleWork_IsLetGoOrUncertain) {
+  static const Rig coarse(100);
+  const mesh::View& view = coarse.view;
+  uint32_t let_go = 0, uncertain = 0;
+  for (uint32_t i = 0; i < 600; ++i) {
+    firmtouch::test::note("vertex", static_cast<int>(i));
+    const math::Vec3 v_m = view.vertex(i * 211u % view.vertices().size());
+    mesh::Hint hint;
+    scene::HulledMeshTouched shape{coarse.object, hint};
+    scene::Proxy proxy;
+    scene::ProxySettings settings;
+    settings.radius_m = 0.003f;
+    const math::Vec3 off_m{0.0012f, -0.0006f, i % 2 == 0 ? 0.006f : -0.006f};
+    math::Vec3 hand_m;
+    for (int k = 10; k >= -2; --k) {
+      hand_m = v_m + off_m * (0.1f * static_cast<float>(k));
+      (void)scene::move_proxy(settings, hand_m, shape, proxy);
+    }
+    if (proxy.phase != scene::Proxy::Phase::kFree || !proxy.is_loaded) continue;
+    settings.budget.work = 20;
+    const math::Vec3 out_m = proxy.position_m - hand_m;
+    uint32_t ticks = 0, in_a_row = 0;
+    bool is_settled = false;
+    while (proxy.is_loaded && in_a_row < 10 && !is_settled && ticks < 30) {
+      const float away = 0.1f * static_cast<float>(++ticks < 15 ? ticks : 15u);
+      const scene::ProxyMoved moved =
+          scene::move_proxy(settings, hand_m + out_m * away, shape, proxy);
+      in_a_row = moved.is_starved ? in_a_row + 1 : 0;
+      is_settled = moved.is_optimal && ticks >= 15;  // it touches elsewhere
+    }
+    CHECK_LT(ticks, 30u);
+    (in_a_row < 10 ? let_go : uncertain) += 1;
+  }
+  CHECK_LT(200u, let_go);
+  CHECK_LT(0u, uncertain);
 }

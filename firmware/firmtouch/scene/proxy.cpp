@@ -149,6 +149,9 @@ void ProxyMove::take_plane(uint32_t i) {
   const float from_m = math::dot(tangent.normal, proxy_.position_m - proxy_.planes_at_m);
   proxy_.plane[i] = {tangent.normal, (lacking_m < most_m ? lacking_m : most_m) + from_m};
   taken_ |= 1u << i;
+  // Nearer to a base hull than the radius a tool may be stuck, though its hand leaves.
+  if (proxy_.feature[i].is_of_base_hull && math::dot(tangent.normal, outlook_.way_m) > 0.0f)
+    moved_.is_starved = true;
 }
 
 // Result: whether a plane that holds the proxy was taken elsewhere before.
