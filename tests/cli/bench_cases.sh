@@ -71,3 +71,19 @@ BenchNamesTheLabForItsTrials() {
   f bench orders part.obj; exits 2; says "'orders' is now run as \`firmtouch-lab orders\`" FIRMTOUCH_LAB
   same "$out" ''
 }
+
+BenchTouchRunsAsManyTicksAsItIsGiven() {
+  f bench touch --ticks 0; exits 2; says --ticks
+  f bench touch --ticks many; exits 2; says --ticks
+  f bench touch --seed -1; exits 2; says --seed
+  box >box.obj
+  f bench touch box.obj --ticks 700 --seed 4
+  exits 0
+  printf '%s\n' "$out" | grep -qE 'moves that cross .* in 700 ticks' || fail "$out"
+  first=$out
+  f bench touch box.obj --ticks 700 --seed 5
+  [ "$out" != "$first" ] || fail "--seed changes nothing: $out"
+  f bench touch "$here/../spline/cad/torus.igs" --ticks 2000
+  exits 0
+  printf '%s\n' "$out" | grep -qE 'solution +torus .*goal >= 95' || fail "$out"
+}

@@ -12,6 +12,10 @@ struct Options {
   std::string peer;                 // a command, run by the shell; empty: none
   std::string figures;              // a folder for drawings; empty: none
   bool is_long = false;             // the full sizes
+  // Of `touch`:
+  uint64_t ticks = 0;       // a model; 0: as is_long says
+  uint64_t seed = 0;        // of the first ride
+  bool is_release = false;  // only hands that leave, in full
 };
 
 /// A bench prints figures of the papers' tables or the project's bars. It throws a Problem where it

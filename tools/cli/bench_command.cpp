@@ -28,7 +28,10 @@ Command bench_command() {
       "machine. A peer is another program that answers the same queries:\n"
       "    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`",
       options_of_benches(
-          {"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"}),
+          {{"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"},
+           {"--ticks", "N", "touch: ticks a model (default: 200,000; --long: 20,000,000)"},
+           {"--seed", "N", "touch: seed of its first ride (default: 0)"},
+           {"--release", nullptr, "touch: 1,500 hands that leave with 20 work units a tick"}}),
       0,
       SIZE_MAX,
       run_bench};

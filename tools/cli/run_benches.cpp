@@ -64,12 +64,13 @@ bench::Report report_of(const bench::Bench& each, const bench::Options& options)
 
 }  // namespace
 
-std::vector<Option> options_of_benches(const Option& own) {
-  return {{"--peer", "COMMAND", "what to race against (default: none)"},
-          {"--bar", nullptr, "exit code 1 where a bar is not met"},
-          own,
-          {"--json", nullptr, "for programs"},
-          {"--long", nullptr, "the full sizes"}};
+std::vector<Option> options_of_benches(std::vector<Option> own) {
+  std::vector<Option> options = {{"--peer", "COMMAND", "what to race against (default: none)"},
+                                 {"--bar", nullptr, "exit code 1 where a bar is not met"},
+                                 {"--json", nullptr, "for programs"},
+                                 {"--long", nullptr, "the full sizes"}};
+  options.insert(options.begin() + 2, own.begin(), own.end());
+  return options;
 }
 
 int run_benches(const std::vector<bench::Bench>& all, const Arguments& arguments) {
@@ -81,6 +82,9 @@ int run_benches(const std::vector<bench::Bench>& all, const Arguments& arguments
   options.peer = arguments.text("--peer", "");
   options.figures = arguments.text("--figures", "");
   options.is_long = arguments.has("--long");
+  options.ticks = arguments.count("--ticks", 0, 1, UINT32_MAX);
+  options.seed = arguments.count("--seed", 0, 0, UINT32_MAX);
+  options.is_release = arguments.has("--release");
   size_t not_met = 0;
   std::string text;
   for (const bench::Bench& each : chosen(all, words[0])) {

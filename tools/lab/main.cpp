@@ -15,7 +15,7 @@ cli::Command command() {
       "each trial. A peer is another program that answers the same queries, as for firmtouch "
       "bench.",
       cli::options_of_benches(
-          {"--figures", "FOLDER", "where `pictures` draws (default: the current folder)"}),
+          {{"--figures", "FOLDER", "where `pictures` draws (default: the current folder)"}}),
       0,
       SIZE_MAX,
       [](const cli::Arguments& arguments) { return cli::run_benches(trials(), arguments); }};
