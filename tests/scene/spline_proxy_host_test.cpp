@@ -1,0 +1,95 @@
+// A proxy on spline surfaces: its theorems against a torus in closed form.
+#include <cmath>
+#include <limits>
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/proxy.hpp"
+#include "firmtouch/scene/spline_touched.hpp"
+#include "scene/spline_rig.hpp"
+#include "surface/random.hpp"
+
+using namespace firmtouch;     // NOLINT: a test file
+using namespace spline_touch;  // NOLINT
+
+namespace {
+
+double wide(float a) { return static_cast<double>(a); }
+
+// Below 0 inside.
+double to_torus_m(math::Vec3 p) {
+  return std::hypot(std::hypot(wide(p.x), wide(p.y)) - 0.05, wide(p.z)) - 0.02;
+}
+
+double between_m(math::Vec3 a, math::Vec3 b) {
+  return std::hypot(wide(a.x) - wide(b.x), wide(a.y) - wide(b.y), wide(a.z) - wide(b.z));
+}
+
+struct Drag {
+  const Surface surface = torus();
+  scene::SplineObject object;
+  spline::Hint hint;
+  scene::SplineTouched shape{object, hint};
+  scene::Proxy proxy;
+  scene::ProxySettings settings;
+  uint32_t held = 0, nearer = 0, through = 0, longer = 0;
+
+  explicit Drag(float friction) {
+    object.surface = &surface.view;
+    settings.radius_m = kRadius_m;
+    settings.friction_static = settings.friction_dynamic = friction;
+  }
+  void tick(math::Vec3 hand_m) {
+    const math::Vec3 from_m = proxy.position_m;
+    const bool was_free = proxy.phase == scene::Proxy::Phase::kFree;
+    const scene::ProxyMoved moved = scene::move_proxy(settings, hand_m, shape, proxy);
+    CHECK_LE(moved.queries, scene::kMaxQueries);
+    if (!was_free) return;
+    const double size_m = wide(shape.size_m()), off_m = to_torus_m(proxy.position_m);
+    nearer += std::fabs(off_m) < wide(proxy.radius_m) - 2e-6 * size_m;
+    through += (off_m > 0) != (to_torus_m(from_m) > 0);
+    const double longer_m = between_m(proxy.position_m, hand_m) - between_m(from_m, hand_m);
+    longer += longer_m > (settings.friction_static > 0 ? 0 : 1e-7 * size_m);
+    held += proxy.is_loaded;
+  }
+};
+
+}  // namespace
+
+TEST(SplineProxy_AnyHandAndFriction_KeepsTheTheorems) {
+  for (const float friction : {0.0f, 0.05f, 0.5f, 2.0f}) {
+    Drag drag(friction);
+    tools::Random random(5);
+    math::Vec3 hand_m{0, 0, 0.06f}, step_m;
+    for (int i = 0; i < 20000; ++i) {
+      if (i % 40 == 0) {
+        const double most_m = i % 200 == 0 ? 0.01 : 0.001;
+        const auto any_m = [&] { return static_cast<float>(random.between(-most_m, most_m)); };
+        step_m = {any_m(), any_m(), any_m()};
+      }
+      hand_m = hand_m + step_m;
+      if (math::length(hand_m) > 0.09f) step_m = hand_m * -0.01f;
+      if (i % 500 == 0) drag.settings.budget.work = i % 1000 == 0 ? 640 : 40;
+      drag.tick(hand_m);
+    }
+    CHECK_LT(4000u, drag.held);
+    CHECK_EQ(drag.nearer, 0u);
+    CHECK_EQ(drag.through, 0u);
+    CHECK_EQ(drag.longer, 0u);
+  }
+}
+
+TEST(SplineProxy_HostileHands_StaysFiniteAndOutside) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              most = std::numeric_limits<float>::max();
+  Drag drag(0.3f);
+  const math::Vec3 hands[] = {{0, 0, 0.06f},  {0, 0.05f, 0.02f}, {nan, 0, 0}, {most, 0, -most},
+                              {0, 0.05f, 0},  {1e6f, 0, 0},      {0, nan, 0}, {0, -0.05f, 0.01f},
+                              {0, 0, 1e-30f}, {-0.05f, 0, 0}};
+  for (int i = 0; i < 2000; ++i) {
+    const math::Vec3 hand_m = hands[i * 7 % 10];
+    (void)scene::move_proxy(drag.settings, hand_m, drag.shape, drag.proxy);
+    CHECK(math::is_finite(drag.proxy.position_m));
+    if (drag.proxy.phase == scene::Proxy::Phase::kFree)
+      CHECK_LE(0.999 * wide(drag.proxy.radius_m), to_torus_m(drag.proxy.position_m));
+  }
+}
