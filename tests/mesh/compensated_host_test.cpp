@@ -108,6 +108,11 @@ double own_share(const Case& c) {
                                  foot.feature == mesh::Feature::kFace)};
 }
 
+double own_face_share(const Case& c) {
+  const mesh::Foot foot = mesh::closest_on_triangle(c.p, c.corner[0], c.corner[1], c.corner[2]);
+  return foot.feature == mesh::Feature::kFace ? own_share(c) : -1;
+}
+
 mesh::View one_triangle(const Case& c, std::vector<tools::Section>& sections) {
   tools::Surface surface;
   surface.vertices = {c.corner[0], c.corner[1], c.corner[2]};
@@ -147,6 +152,9 @@ TEST(LossByTheFootStaysWithinItsBoundUnderAttack) {
   CHECK_LE(worst(own_share, 0.01, 30, 1500), 1.0);
   CHECK_LE(worst(own_share, 0.001, 30, 1500), 1.0);
   CHECK_GT(worst(own_share, 0.01, 30, 1500), 0.2);
+  const double of_faces = worst(own_face_share, 0.003, 60, long_run() ? 30000 : 3000);
+  CHECK_LE(of_faces, 1.0);
+  CHECK_GT(of_faces, 0.3);
 }
 
 TEST(CompensatedLossStaysWithinItsBoundUnderAttack) {

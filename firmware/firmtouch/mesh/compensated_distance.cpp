@@ -119,8 +119,9 @@ float share(float t) { return t > 0.0f ? t < 1.0f ? t : 1.0f : 0.0f; }
   return math::smaller(edge_distance2(p, c, a), least);
 }
 
-// Only calls that return what they return: no stack of its own.
-float feature_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature) {
+// Of an edge or a corner. Only calls that return what they return: no stack of its own.
+[[gnu::noinline, gnu::cold]] float border_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c,
+                                                    Feature feature) {
   switch (feature) {
     case Feature::kEdge0:
       return edge_distance2(p, a, b);
@@ -133,18 +134,18 @@ float feature_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature) {
     case Feature::kVertex1:
       return corner_distance2(p, b);
     case Feature::kVertex2:
-      return corner_distance2(p, c);
     case Feature::kFace:
       break;
   }
-  return face_distance2(p, a, b, c, true);
+  return corner_distance2(p, c);
 }
 
 }  // namespace
 
 float nearest_compensated2(Vec3 p, Vec3 a, Vec3 b, Vec3 c, Feature feature, float distance2_m2) {
-  return is_feature_clear(distance2_m2, b - a) ? feature_distance2(p, a, b, c, feature)
-                                               : least_distance2(p, a, b, c);
+  if (!is_feature_clear(distance2_m2, b - a)) return least_distance2(p, a, b, c);
+  return feature == Feature::kFace ? face_distance2(p, a, b, c, true)
+                                   : border_distance2(p, a, b, c, feature);
 }
 
 float compensated_distance2(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {

@@ -44,15 +44,17 @@ struct Loss {
   /// corner a; on the edge b c from corner b.
   ///
   /// Where the distance is more than 2^-12 of the edge, the shift in the plane adds less than u L /
-  /// 16. The rest of 8.8 u L grows with the foot's parts X along ab and Y across: u |ap| is u r, r
-  /// = |X, Y|, ab x 2 u X, e u Y. Of h, w |ac| <= X + Y, and 2 w xc |ab| <= 2 X because v >= 0; h
-  /// and its product 2 u Y. Together u (r + 5 X + 4 Y) <= 7.41 u r; at an edge 3 u r.
+  /// 16: the loss is that of the offset along itself, linear in the foot's parts X along ab and Y
+  /// across, r = |X, Y|. Roundings of ap, e and h: u (r + Y + Y); of the products ab x, ab xc w and
+  /// h w: u (X + X + Y), because w xc |ab| <= X; of ab and ac themselves, which count with the
+  /// foot's shares v and w: u (v |ab| + w |ac|) <= u (X + Y). Together u (r + 3 X + 4 Y) <= 6 u r;
+  /// at an edge 3 u r.
   float own_m(float distance_m, math::Vec3 ab_m, float reach_m, bool is_face) const {
     const float ab2_m2 = ab_m.x * ab_m.x + ab_m.y * ab_m.y + ab_m.z * ab_m.z;
     const float edge_m = math::square_root(ab2_m2);
     const bool is_clear = distance_m * distance_m > ab2_m2 * 0x1p-24f;
     const float lost_m =
-        is_clear ? (is_face ? 7.6f : 3.1f) * reach_m + 0.1f * edge_m : 28.0f * edge_m;
+        is_clear ? (is_face ? 6.2f : 3.1f) * reach_m + 0.1f * edge_m : 28.0f * edge_m;
     return 0x1p-24f * (6.7f * distance_m + lost_m) + kVanishing_m;
   }
   /// Of compensated_distance2() and its root: one rounding each, the first halved by the root.

@@ -66,16 +66,15 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
 }
 
-// Measures the nearest triangle of `search` in double-float, and those rivals that are not
-// certified by float32 to be at most `gap_m` nearer, and puts into search.best which of them is
+// Measures the nearest triangle of `search`, `nearest`, in double-float, and those rivals that are
+// not certified by float32 to be at most `gap_m` nearer, and puts into search.best which of them is
 // truly the nearest.
 // Result: its distance. `lower_m`: of the rivals that were not measured.
-[[gnu::noinline, gnu::cold]] float settle(const View& mesh, Vec3 p_m, float gap_m, Search& search,
-                                          float& lower_m) {
+[[gnu::noinline, gnu::cold]] float settle(const View& mesh, const Corners& nearest, Vec3 p_m,
+                                          float gap_m, Search& search, float& lower_m) {
   const Loss loss(mesh.head());
   Best& best = search.best;
-  const Corners corners(mesh, best.triangle);
-  float distance_m = corners.compensated_m(p_m, best.feature, best.distance2_m2);
+  float distance_m = nearest.compensated_m(p_m, best.feature, best.distance2_m2);
   lower_m = FLT_MAX;
   for (uint32_t i = 0; i < search.rivals.count; ++i) {
     const float distance2_m2 = search.rivals.distance2_m2[i];
@@ -144,7 +143,7 @@ void weigh(Found& found, float lower_m, float rounding_m) {
   } else {
     search.rivals.count = 0;
   }
-  const float distance_m = settle(mesh, p_m, gap_m, search, lower_m);
+  const float distance_m = settle(mesh, nearest, p_m, gap_m, search, lower_m);
   const float least_m = math::smaller(distance_m, near_m);
   lower_m =
       are_all_known
