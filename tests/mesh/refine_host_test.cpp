@@ -124,6 +124,43 @@ tools::Surface bar_of_fans(uint32_t count) {
   return bar;
 }
 
+// A prism of `count` long sides, all cut so that each triangle's longest edge begins at its tip.
+tools::Surface prism_of_tips(uint32_t count) {
+  tools::Surface prism;
+  for (uint32_t end = 0; end < 2; ++end) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const double angle = 2 * 3.14159265358979 * i / count;
+      prism.vertices.push_back(
+          {float(end), float(0.1 * std::cos(angle)), float(0.1 * std::sin(angle))});
+    }
+  }
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t a = i, b = (i + 1) % count, c = count + b, d = count + i;
+    prism.faces.push_back({a, c, d});
+    prism.faces.push_back({a, b, c});
+    if (i == 0 || i + 1 == count) continue;
+    prism.faces.push_back({0, i + 1, i});
+    prism.faces.push_back({count, d, c});
+  }
+  for (tools::Face& face : prism.faces) std::swap(face[1], face[2]);
+  return prism;
+}
+
+// How far the middle of the long faces lies from where their longest edges begin, on average.
+double mean_reach(tools::Surface surface) {
+  tools::longest_edge_first(surface);
+  double sum = 0;
+  uint32_t count = 0;
+  for (const tools::Face& face : surface.faces) {
+    const Point a = corner(surface, face, 0), b = corner(surface, face, 1),
+                c = corner(surface, face, 2);
+    if (length(b - a) < 0.9) continue;
+    sum += length((a + b + c) * (1.0 / 3) - a);
+    ++count;
+  }
+  return sum / count;
+}
+
 uint32_t largest_valence(const tools::Surface& surface) {
   std::vector<uint32_t> valence(surface.vertices.size());
   for (const tools::Face& face : surface.faces)
@@ -212,6 +249,27 @@ TEST(Refine_Fans_BecomeCompact) {
   CHECK_GT(largest_valence(both.given), 150u);
   CHECK(is_closed_and_alike(both.refined));
   CHECK_LT(largest_valence(both.refined), 20u);
+}
+
+TEST(Refine_LongRectangles_LongestEdgesBeginWhereTrianglesAreWide) {
+  const tools::Surface mirrored = [] {
+    tools::Surface turned = prism_of_tips(160);
+    for (math::Vec3& v : turned.vertices) v.x = -v.x;
+    for (tools::Face& face : turned.faces) std::swap(face[1], face[2]);
+    return turned;
+  }();
+  const double tips = mean_reach(prism_of_tips(160)), wide_ends = mean_reach(mirrored);
+  const double larger = std::max(tips, wide_ends), smaller = std::min(tips, wide_ends);
+  CHECK_GT(larger, 0.66);
+  CHECK_LT(smaller, 0.34);
+  for (const tools::Surface& given : {prism_of_tips(160), mirrored}) {
+    Both both(given);
+    both.refined = both.given;
+    tools::refine(both.refined, kMaxMove * diagonal(given), 1);
+    CHECK(is_closed_and_alike(both.given));
+    CHECK(is_closed_and_alike(both.refined));
+    CHECK_LT(mean_reach(both.refined), 0.34);
+  }
 }
 
 TEST(Refine_FansOfThousands_EndAndStayClosed) {

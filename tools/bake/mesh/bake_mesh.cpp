@@ -7,6 +7,7 @@
 #include "bake/mesh/box_frame.hpp"
 #include "bake/mesh/leaf_boxes.hpp"
 #include "bake/mesh/mesh_tree.hpp"
+#include "bake/mesh/query_cost.hpp"
 #include "bake/mesh/refine.hpp"
 #include "bake/mesh/sign_proof.hpp"
 #include "bake/mesh/turn_slivers.hpp"
@@ -186,6 +187,11 @@ std::string proof_failure(const core::Verdict& verdict) {
 
 std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
                                const MeshOptions& options, MeshReport& report) {
+  return bake_mesh_so(given, name, without_needless_splits(given, options), report);
+}
+
+std::vector<Section> bake_mesh_so(const Surface& given, const std::string& name,
+                                  const MeshOptions& options, MeshReport& report) {
   if (given.faces.size() > mesh::kMaxTriangles) {
     report.problem = std::to_string(given.faces.size()) + " triangles; at most " +
                      std::to_string(mesh::kMaxTriangles) + " fit an asset: simplify the model";
@@ -208,7 +214,7 @@ std::vector<Section> bake_mesh(const Surface& given, const std::string& name,
       report = {};
       MeshOptions as_given = options;
       as_given.max_growth = 0;
-      return bake_mesh(given, name, as_given, report);
+      return bake_mesh_so(given, name, as_given, report);
     }
     if (!report.problem.empty()) return {};
   }

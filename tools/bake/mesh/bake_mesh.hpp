@@ -38,4 +38,8 @@ struct MeshReport {
 std::vector<Section> bake_mesh(const Surface& surface, const std::string& name,
                                const MeshOptions& options, MeshReport& report);
 
+/// The same with all splits that the options allow, whether or not queries gain by them.
+std::vector<Section> bake_mesh_so(const Surface& surface, const std::string& name,
+                                  const MeshOptions& options, MeshReport& report);
+
 }  // namespace firmtouch::tools

@@ -74,6 +74,11 @@ class Refiner {
     flip_each(true);
     flip_each(false);
   }
+  // Last: among splits it makes worse triangles.
+  void flip_by_reach() {
+    is_by_reach_ = true;
+    flip_each(false);
+  }
   void flip_each(bool is_by_length) {
     is_by_length_ = is_by_length;
     for (uint32_t h = 0; h < mates_.size(); ++h) touched_.push_back(h);
@@ -157,14 +162,25 @@ class Refiner {
     return p;
   }
 
-  // Whether the other diagonal has the smaller boxes.
+  // How far the points of a triangle lie, on average and by area, from where its longest edge
+  // begins: what float32 loses of a distance grows with it (mesh/loss.hpp, own_m()).
+  static double reach(Point a, Point b, Point c) {
+    const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
+    const Point from = ab >= bc && ab >= ca ? a : bc >= ca ? b : c;
+    return length(cross(b - a, c - a)) * length((a + b + c) * (1.0 / 3) - from);
+  }
+
+  // Whether the other diagonal has the smaller boxes; of equal ones, the smaller reach.
   bool is_worth_flipping(const Pair& p) const {
     const Point a = framed_[p.a], b = framed_[p.b], c = framed_[p.c], d = framed_[p.d];
     if (is_by_length_) return length(d - c) < length(b - a) * (1 - kMinGain);
     const auto area = [this](Point u, Point v, Point w) {
       return half_box_area(u, v, w, margin_m_);
     };
-    return area(c, d, a) + area(c, d, b) < (area(a, b, c) + area(a, b, d)) * (1 - kMinGain);
+    const double before = area(a, b, c) + area(a, b, d), after = area(c, d, a) + area(c, d, b);
+    if (after < before * (1 - kMinGain)) return true;
+    return is_by_reach_ && after <= before * (1 + kMinGain) &&
+           reach(a, d, c) + reach(d, b, c) < (reach(a, b, c) + reach(b, a, d)) * 0.9;
   }
 
   void flip(const Pair& p) {
@@ -267,7 +283,7 @@ class Refiner {
   Surface& surface_;
   Frame boxes_;
   double margin_m_;
-  bool is_by_length_ = false;
+  bool is_by_length_ = false, is_by_reach_ = false;
   std::vector<Point> framed_;  // the vertices along the axes of the boxes
   std::vector<Face>& faces_;
   std::vector<uint32_t> mates_;
@@ -284,17 +300,27 @@ class Refiner {
 
 }  // namespace
 
+bool has_long_edges(const Surface& surface) {
+  return surface.faces.size() >= kMinRefinedFaces &&
+         longest_edge_m(surface) >= kLongEdge * diagonal_m(surface.vertices);
+}
+
 Refined refine(Surface& surface, double max_move_m, double max_growth, const Frame& boxes) {
+  if (!has_long_edges(surface)) return {};
   const double longest_m = longest_edge_m(surface), all_m = diagonal_m(surface.vertices);
-  if (surface.faces.size() < kMinRefinedFaces || longest_m < kLongEdge * all_m) return {};
+  const Surface given = surface;
   Refiner refiner(surface, max_move_m, max_growth, boxes);
   refiner.flip_all();
-  const Surface flipped = surface;
-  const Refined flips = refiner.result();
   const double left_m = refiner.split_longer_than(kRefinedEdge * all_m);
-  if (left_m <= longest_m / 2) return refiner.result();
-  surface = flipped;
-  return flips;
+  if (left_m <= longest_m / 2) {
+    refiner.flip_by_reach();
+    return refiner.result();
+  }
+  surface = given;
+  Refiner flipper(surface, max_move_m, max_growth, boxes);
+  flipper.flip_all();
+  flipper.flip_by_reach();
+  return flipper.result();
 }
 
 }  // namespace firmtouch::tools

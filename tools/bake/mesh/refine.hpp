@@ -16,6 +16,10 @@ struct Refined {
   bool any() const { return flips + splits != 0; }
 };
 
+/// Whether the surface has 256 faces or more, and edges from about which on float32 alone does not
+/// keep the promised error (firmware/firmtouch/mesh/loss.hpp).
+bool has_long_edges(const Surface& surface);
+
 /// Makes the long thin triangles of machined parts compact, because a query reads all boxes within
 /// its distance. Edges inside flat faces are flipped where that makes the boxes of their two faces,
 /// along the axes of `boxes`, smaller; and the longest edges are split in the middle. Splits that
