@@ -16,6 +16,27 @@ Records records;
 TurnWatch main_loop;
 SavedCommands saved_commands;
 
+namespace {
+
+// Index pulses or the counts of second encoders, if the program has them: as the asset says.
+template <class OfController>
+uint32_t flags_of_joints(const OfController& of) {
+  [[maybe_unused]] uint8_t low[record::kAxes];
+  if constexpr (OfController::kHasIndexPulses) {
+    if (of.device().index_pulses().is_open()) {
+      const uint32_t pulses = hal::encoders_index(low);
+      return record::flags_of_index(pulses, low);
+    }
+  }
+  if constexpr (OfController::kHasSecondEncoders) {
+    hal::encoders_second(low);
+    return record::flags_of_second(low);
+  }
+  return 0;
+}
+
+}  // namespace
+
 void servo_interrupt() {
   static uint32_t next_tick = 0;
   static uint32_t last_work_us = 0;
@@ -29,11 +50,7 @@ void servo_interrupt() {
   if (!sets_saved) commands.take(now.input);  // at most one parameter a tick
   now.input.flags = servo_flags(sets_saved);
   if (!hal::encoders_read(now.input.encoder_counts)) now.input.flags |= record::kFlagEncoderFault;
-  if constexpr (AppController::kComparesEncoders) {
-    uint8_t second[record::kAxes];
-    hal::encoders_second(second);
-    now.input.flags |= record::flags_of_second(second);
-  }
+  now.input.flags |= flags_of_joints(controller);
   if (kTwoRates) now.input.flags |= controller.model_flags();
 
   controller.tick(now.input, now.output);  // calls no HAL: a replay calls it with the same input

@@ -15,6 +15,11 @@ void encoders_second(uint8_t (&counts)[3]) {
   for (uint8_t& count : counts) count = 0;
 }
 
+uint32_t encoders_index(uint8_t (&counts)[3]) {
+  for (uint8_t& count : counts) count = 0;
+  return 0;
+}
+
 void motors_state(bool) {}
 
 void motors_write_N(const float (&)[3]) {}

@@ -67,6 +67,7 @@ class FailureRig {
   ~FailureRig();
   const Touch& touch() const { return touch_; }
   uint32_t joints() const { return device_.joints.joints; }
+  bool has_index() const { return device_.has_index_pulses; }
   /// In which the machine may fail.
   uint32_t ticks() const { return ticks_; }
   FailureRun run(const Failure& failure, uint32_t tick);

@@ -20,7 +20,8 @@ constexpr double kMaxHoming_s = 2.001;
 constexpr double kMaxRise = 1 + 1e-5;  // float rounding
 constexpr double kMaxTip_mps = 2;
 // Work done on a hand in FailureRig::kTicksAfter, by FailureMode.
-constexpr double kStated_J[kFailureModes] = {0.03, 0.01, 0.3, 0.5, 0.03, 0.1, 0.5, 0.01, 0.002};
+constexpr double kStated_J[kFailureModes] = {0.03, 0.01, 0.3,  0.5,   0.03,
+                                             0.1,  0.5,  0.01, 0.002, 0.01};
 
 // Of all runs of a failure.
 struct Tally {
@@ -171,6 +172,7 @@ void study_failures(const std::vector<std::string>& machines, uint32_t every,
           return;
         }
         FailureRig rig(machines[machine], static_cast<uint32_t>(job % kJobs % kTouches));
+        if (static_cast<FailureMode>(mode) == FailureMode::kIndexAbsent && !rig.has_index()) return;
         Tally tally;
         const uint32_t first = static_cast<uint32_t>(37 * job % every);  // samples differ
         for (uint32_t tick = first; tick < rig.ticks(); tick += every)

@@ -5,7 +5,7 @@ namespace {
 
 constexpr const char* kNames[kFailureModes] = {
     "encoder_stuck", "encoder_lost",   "encoders_swapped", "encoder_reversed", "encoder_slipped",
-    "motor_dead",    "motor_reversed", "motor_hot",        "link_broken"};
+    "motor_dead",    "motor_reversed", "motor_hot",        "link_broken",      "index_absent"};
 
 }  // namespace
 

@@ -13,10 +13,11 @@ enum class FailureMode : uint32_t {
   kEncoderSlipped,   // a belt's tooth off
   kMotorDead,
   kMotorReversed,
-  kMotorHot,    // the driver reports it
-  kLinkBroken,  // the hand holds a piece that came off
+  kMotorHot,     // the driver reports it
+  kLinkBroken,   // the hand holds a piece that came off
+  kIndexAbsent,  // no index pulse comes
 };
-constexpr uint32_t kFailureModes = 9;
+constexpr uint32_t kFailureModes = 10;
 
 struct Failure {
   FailureMode mode = FailureMode::kEncoderStuck;

@@ -45,6 +45,7 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
   if (scenario.linkage) {
     linkage_.emplace(linkage_at(scenario, start_m, start_));
     device_ = &*scenario.linkage;
+    for (uint32_t k = 0; k < joint_count(); ++k) turns_[k] = index_turns(k);
     delayed_Nm_.resize(scenario.device.output_delay_samples);
     for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
       zero_count_[k] = linkage_->count(k);
@@ -74,6 +75,7 @@ void Machine::locate() {
 }
 
 void Machine::command(const float (&motor)[3]) {
+  pulses_ = 0;
   const Vec wanted{static_cast<double>(motor[0]), static_cast<double>(motor[1]),
                    static_cast<double>(motor[2])};
   if (axes_) return axes_->command(after_failures(wanted));
@@ -87,6 +89,7 @@ void Machine::advance(Vec hand_N, double time_s) {
     axes_->advance(hand_N, time_s);
   } else {
     linkage_->advance({motor_Nm_.x, motor_Nm_.y, motor_Nm_.z}, hand_N, time_s);
+    pass_pulses();
   }
   locate();
 }
@@ -122,9 +125,18 @@ bool Machine::has_failed(FailureMode mode) const {
                      [&](const Failed& failed) { return failed.what.mode == mode; });
 }
 
+bool Machine::has_failed(FailureMode mode, uint32_t joint) const {
+  return std::any_of(failed_.begin(), failed_.end(), [&](const Failed& failed) {
+    return failed.what.mode == mode && failed.what.joint == joint;
+  });
+}
+
 uint32_t Machine::flags() const {
   return (has_failed(FailureMode::kEncoderLost) ? record::kFlagEncoderFault : 0) |
-         (has_failed(FailureMode::kMotorHot) ? record::kFlagDriveFault : 0) | second_counts();
+         (has_failed(FailureMode::kMotorHot) ? record::kFlagDriveFault : 0) |
+         (device_ != nullptr && device_->has_index_pulses
+              ? record::flags_of_index(pulses_, latched_)
+              : second_counts());
 }
 
 int32_t Machine::count(int axis) const {
@@ -142,6 +154,25 @@ int32_t Machine::count(int axis) const {
     if (mode == FailureMode::kEncoderSlipped) count += slip_counts(joint);
   }
   return static_cast<int32_t>(count);
+}
+
+double Machine::index_turns(uint32_t joint) const {
+  if (!device_->has_index_pulses) return 0;
+  const double from_rad = linkage_->body().motion().angle_rad[joint] -
+                          static_cast<double>(device_->homing.index_rad[joint]);
+  return std::floor(from_rad / static_cast<double>(device_->homing.index_period_rad[joint]));
+}
+
+// Index pulses sit on the joints, behind cables, and latch the encoders, which may have failed.
+void Machine::pass_pulses() {
+  for (uint32_t k = 0; k < joint_count(); ++k) {
+    const double turns = index_turns(k);
+    if (!(turns > turns_[k] || turns < turns_[k])) continue;
+    turns_[k] = turns;
+    if (has_failed(FailureMode::kIndexAbsent, k)) continue;
+    pulses_ |= 1u << k;
+    latched_[k] = static_cast<uint8_t>(count(static_cast<int>(k)));
+  }
 }
 
 // Second encoders sit on the joints, behind cables, and do not fail.

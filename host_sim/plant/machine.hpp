@@ -20,8 +20,8 @@ class Machine {
 
   /// From now on what fails by this time of the scenario has failed.
   void fail_until(double time_s);
-  /// Flags of a tick's input: an encoder or a driver that reports its failure, and the counts of
-  /// second encoders.
+  /// Flags of a tick's input: an encoder or a driver that reports its failure, and index pulses
+  /// since the last command or the counts of second encoders.
   uint32_t flags() const;
   /// Whether the hand has no hold of the machine any more.
   bool is_torn_off() const { return has_failed(FailureMode::kLinkBroken); }
@@ -51,10 +51,13 @@ class Machine {
   };
   void locate();
   bool has_failed(FailureMode mode) const;
+  bool has_failed(FailureMode mode, uint32_t joint) const;
   uint32_t joint_count() const { return device_ != nullptr ? device_->joints.joints : 3; }
   uint32_t true_count(uint32_t joint) const;
   uint32_t slip_counts(uint32_t joint) const;
   uint32_t second_counts() const;
+  double index_turns(uint32_t joint) const;
+  void pass_pulses();
   Vec after_failures(Vec motor) const;
 
   Vec zero_m_;
@@ -69,6 +72,9 @@ class Machine {
   std::optional<DrivenLinkage> linkage_;
   std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first
   Vec motor_Nm_;
+  double turns_[3] = {};  // whole index periods of a joint
+  uint32_t pulses_ = 0;
+  uint8_t latched_[3] = {};
   Vec position_m_, velocity_mps_;
 };
 

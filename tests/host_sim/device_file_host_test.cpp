@@ -65,6 +65,13 @@ TEST(DeviceFile_EveryKey_ConvertsToSi) {
   CHECK(near(device.joints.max_speed_rad_per_s, 15.70796327));
   CHECK(near(device.limits.max_torque_Nm[0], .3) && near(device.limits.max_torque_Nm[1], .2));
   CHECK(near(device.limits.full_from, .2) && near(device.limits.gone_at, .1));
+  const LinkageDevice indexed =
+      read(kFiveBar + "home stops\nindex_0 90 deg\nindex_period_0 20 deg\nindex_1 30 deg\n" +
+           "index_period_1 21 deg\nindex_within 0.5 deg\n");
+  CHECK(indexed.has_index_pulses && indexed.homing.by == device::HomeBy::kStops);
+  CHECK(near(indexed.homing.index_rad[0], 1.570796327));
+  CHECK(near(indexed.homing.index_period_rad[1], .366519143));
+  CHECK(near(indexed.homing.index_within_rad, .008726646));
   const LinkageDevice delta = read(kDelta + "tip below\n");
   CHECK(!std::get<device::Delta>(delta.linkage).is_tip_above);
   CHECK(near(std::get<device::Delta>(delta.linkage).side_m, .0045));

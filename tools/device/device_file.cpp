@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device/line_reader.hpp"
+#include "firmtouch/device/index_pulses.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "firmtouch/device/second_encoders.hpp"
 #include "firmtouch/device/stored_homing.hpp"
@@ -94,6 +95,17 @@ void add_second_encoders(LinkageDevice& device, Keys& to) {
   to.number("second_within", "rad", 0, 100, device.second_within_rad, false);
 }
 
+void add_index_pulses(LinkageDevice& device, Keys& to) {
+  for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
+    to.keys.push_back({of("index", k), "rad", -100, 100, false, [&device, k](double si) {
+                         device.homing.index_rad[k] = static_cast<float>(si);
+                         device.has_index_pulses = true;
+                       }});
+    to.number(of("index_period", k), "rad", 0, 100, device.homing.index_period_rad[k], false);
+  }
+  to.number("index_within", "rad", 0, 100, device.homing.index_within_rad, false);
+}
+
 void add_homing(LinkageDevice& device, Keys& to) {
   for (const char* by : {"stops", "pose"})
     to.words.push_back({"home", by, [&device, by] {
@@ -149,6 +161,7 @@ Keys keys_of(LinkageDevice& device) {
   to.number("torque_rise", "s", 1e-4, 1, device.torque_rise_s, false);
   to.number("carried_share", "", 0, 0.9, device.carried_share, false);
   add_homing(device, to);
+  add_index_pulses(device, to);
   add_second_encoders(device, to);
   to.flag("walls", "forced", "stable", device.are_walls_forced);
   add_masses(device, to);
@@ -241,6 +254,24 @@ void complete_homing(const std::string& name, LinkageDevice& device,
   if (!is_by_stops) device.homing.speed_rad_per_s = 0;
 }
 
+// Index pulses need homing by stops and leave no room for second encoders in a tick's input.
+void check_index_pulses(const std::string& name, const LinkageDevice& device,
+                        const std::map<std::string, int>& given) {
+  for (const auto& [key, line] : given) {
+    if (key.rfind("index_", 0) != 0) continue;
+    const std::string at = name + ":" + std::to_string(line) + ": `" + key + "` needs ";
+    if (!device.is_homed || device.homing.by != device::HomeBy::kStops)
+      throw Refused(at + "`home stops`");
+    if (device.has_second_encoders)
+      throw Refused(at + "a device without `second_0`; one of both is compared in a tick");
+    for (uint32_t k = 0; k < device.joints.joints; ++k)
+      for (const char* const other : {"index", "index_period"})
+        if (given.count(of(other, static_cast<int>(k))) == 0)
+          throw Refused(at + "`" + of(other, static_cast<int>(k)) + "`, too");
+    if (given.count("index_within") == 0) throw Refused(at + "`index_within`, too");
+  }
+}
+
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
 void check_cables(const std::string& name, const LinkageDevice& device) {
   constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
@@ -261,8 +292,11 @@ void check_cables(const std::string& name, const LinkageDevice& device) {
 core::Verdict check_stored(core::Bytes section) {
   device::StoredLinkage linkage;
   device::StoredHoming homing;
+  device::IndexPulses index;
   device::SecondEncoders second;
-  const core::Verdict verdict = open(device::before_second_encoders(section), linkage, homing);
+  const core::Bytes homed = device::before_index_pulses(section);
+  core::Verdict verdict = open(device::before_second_encoders(homed), linkage, homing);
+  if (verdict.ok() && homing.is_open()) verdict = open(section, linkage, homing, index);
   return verdict.ok() ? open(section, linkage, second) : verdict;
 }
 
@@ -291,6 +325,7 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
   fill_rods(device);
   check_rules(name, device);
   complete_homing(name, device, given);
+  check_index_pulses(name, device, given);
   if (!device.has_second_encoders && given.count("second_within") != 0)
     throw Refused(name + ":" + std::to_string(given["second_within"]) +
                   ": `second_within` needs `second_0`, the counts of a joint's second encoder");

@@ -53,7 +53,8 @@ struct LinkageDevice {
   bool are_walls_forced = false;  // motors come on beside walls that are not stable
   bool is_homed = false;          // its encoders count from where they are switched on
   device::HomingSettings homing;
-  bool has_second_encoders = false;                      // on joints, compared with the first
+  bool has_index_pulses = false;     // on joints; in `homing`, whose `by` is then kStops
+  bool has_second_encoders = false;  // on joints, compared with the first
   float second_counts_per_rad[device::kMaxJoints] = {};  // 0: the joint has none
   float second_within_rad = 0;                           // by which they may differ from the first
 };
@@ -71,6 +72,7 @@ struct LinkageDevice {
 ///     home stops                      optional, or `home pose`: also home_torque_0 (default: 0.3
 ///     of
 ///                                     max_torque_0), home_speed, home_margin, home_pose_0
+///     index_0 30 deg                  optional, of each joint: also index_period_0, index_within
 ///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
 ///                                     middle), proximal_inertia_0 (default: of an even rod)
 /// `name` stands before the line in messages.
@@ -93,7 +95,8 @@ std::vector<Link> links_of(const LinkageDevice& device);
 /// Where the weight of the links acts.
 device::Load load_of(const LinkageDevice& device);
 
-/// The section that the firmware reads: the linkage, with its homing and second encoders if any.
+/// The section that the firmware reads: the linkage, with its homing and index pulses or second
+/// encoders, if any.
 std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device);
 /// Its first part.
 device::LinkageLayout layout_of(const LinkageDevice& device);

@@ -131,6 +131,13 @@ std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
     put(homing.pose_rad, device.homing.pose_rad, 0, device.joints.joints);
     append(bytes, homing);
   }
+  if (device.has_index_pulses) {
+    device::IndexLayout index = {};
+    put(index.index_rad, device.homing.index_rad, 0, device.joints.joints);
+    put(index.period_rad, device.homing.index_period_rad, 0, device.joints.joints);
+    index.within_rad = device.homing.index_within_rad;
+    append(bytes, index);
+  }
   if (device.has_second_encoders) {
     device::SecondEncodersLayout second = {};
     put(second.counts_per_rad, device.second_counts_per_rad, 0, device.joints.joints);

@@ -35,6 +35,8 @@ struct DevicePolicy {
   /// with textures a texture_state(values, scene::Stiffening): 0, or one of
   /// record::kStateWallRefused and kStateWallForced.
   static constexpr bool kKnowsWalls = false;
+  /// True: a tick's flags need the counts of second encoders; index pulses.
+  static constexpr bool kHasSecondEncoders = false, kHasIndexPulses = false;
   /// True: the device has a `bool encoders_agree(const device::Sample&, uint32_t flags)`, which a
   /// tick calls before read() with a sample that the encoders report as valid.
   static constexpr bool kComparesEncoders = false;

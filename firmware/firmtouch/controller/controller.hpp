@@ -29,8 +29,9 @@ class Controller {
       params::Composed<ControllerCore::Parameters, typename Device::Parameters,
                        typename SurfaceList::Parameters, typename Guide::Parameters>::kTable;
 
-  /// Whether a tick's flags need the counts of second encoders.
-  static constexpr bool kComparesEncoders = Device::kComparesEncoders;
+  /// What a tick's flags need.
+  static constexpr bool kHasSecondEncoders = Device::kHasSecondEncoders;
+  static constexpr bool kHasIndexPulses = Device::kHasIndexPulses;
 
   [[gnu::noinline]] Controller() : core_(kTable) {}
   Controller(const Controller&) = delete;  // a distance field refers to the mesh in here

@@ -56,11 +56,16 @@ bool HomedDevice::push(const Values& values, const Push& push, servo::GuardState
     if (homing_.is_open() && is_lost_ && is_quiet) reset();
     return passed;
   }
+  return push_home(values, push, guard, output, homing_.settings(), {sample_, 0, {}, {}});
+}
+
+bool HomedDevice::push_home(const Values& values, const Push& push, servo::GuardState& guard,
+                            record::TickOutput& output, const device::HomingSettings& settings,
+                            const device::HomingSample& sample) {
   device::JointTorques wanted = {};
   if (push.may_push) {
     const device::HomingTorques torques =
-        home(state_, homing_.settings(), linkage_.joints(velocity_settings(values)),
-             {sample_, 0, {}, {}});
+        home(state_, settings, linkage_.joints(velocity_settings(values)), sample);
     wanted.share = 1;
     for (uint32_t k = 0; k < device::kMaxJoints; ++k) wanted.torque_Nm[k] = torques.torque_Nm[k];
   } else if (!has_failed()) {

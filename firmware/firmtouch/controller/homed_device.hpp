@@ -34,11 +34,18 @@ class HomedDevice : public AnyDevice {
   bool is_homed() const { return !homing_.is_open() || state_.is_done; }
   bool has_failed() const { return state_.fault != device::HomingFault::kNone; }
 
- private:
+ protected:
+  /// push() where it is not homed. `sample`: of this tick.
+  bool push_home(const params::Values& values, const Push& push, servo::GuardState& guard,
+                 record::TickOutput& output, const device::HomingSettings& settings,
+                 const device::HomingSample& sample);
+
   device::StoredHoming homing_;
   device::HomingState state_;
   device::Sample sample_ = {};  // of this tick
-  bool is_lost_ = false;        // an encoder was lost: counts may be missing
+
+ private:
+  bool is_lost_ = false;  // an encoder was lost: counts may be missing
 };
 
 }  // namespace firmtouch

@@ -9,9 +9,10 @@ template <class Mesh>
 using SurfacesWithTool = Surfaces<MeshTool, MeshObjects, Mesh, SplineSurface>;
 
 /// Every part of the library, several objects, materials of triangles, a tool of several
-/// spheres (part `tool`), and second encoders (part `second_encoders`). The same parameters, and
+/// spheres (part `tool`), index pulses and second encoders (parts `index_pulses`,
+/// `second_encoders`). The same parameters, and
 /// the same bits for an asset without any of these. What the simulator runs.
-class ToolController : public EveryPart<OneScene, RedundantDevice<HomedDevice>, FullMaterialMesh,
+class ToolController : public EveryPart<OneScene, RedundantDevice<IndexedDevice>, FullMaterialMesh,
                                         SurfacesWithTool<FullMaterialMesh>> {
  public:
   const scene::StoredMaterials& materials() const {
@@ -24,7 +25,7 @@ class ToolController : public EveryPart<OneScene, RedundantDevice<HomedDevice>, 
 };
 
 /// With room for the next asset.
-using SwappingToolController = EveryPart<TwoScenes, RedundantDevice<HomedDevice>, FullMaterialMesh,
-                                         SurfacesWithTool<FullMaterialMesh>>;
+using SwappingToolController = EveryPart<TwoScenes, RedundantDevice<IndexedDevice>,
+                                         FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>>;
 
 }  // namespace firmtouch

@@ -15,6 +15,7 @@ constexpr float kLeavingSpeed = 0.25f;  // of the speed, so that nothing coasts 
 constexpr float kEased = 0.5f;          // of the torque: see unloaded()
 constexpr float kStillShare = 0.0625f;  // of the margin: within it a joint stands
 constexpr int32_t kDeadCounts = 2;
+constexpr float kIndexCounts = 2;  // by which pulses may always miss whole periods
 constexpr uint32_t kMaxBad = 3;
 constexpr float kMaxTorque_Nm = 1000.0f;
 
@@ -123,7 +124,9 @@ bool take_pulse(HomingState& state, const HomingSettings& settings, const JointS
   const float apart = static_cast<float>(difference(sample.latched[k], state.pulse[k]));
   const float turns = apart / period;
   if (!(size(turns) < 1e6f)) return false;
-  return size(apart - static_cast<float>(nearest(turns)) * period) <= 2.0f;
+  const float within = settings.index_within_rad * size(joints.joint[k].counts_per_rad);
+  const float off = size(apart - static_cast<float>(nearest(turns)) * period);
+  return off <= kIndexCounts || off <= within;
 }
 
 // Where the stop begins that the joint stands at. It gives way as the torque, and twice as far

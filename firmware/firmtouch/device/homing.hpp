@@ -22,6 +22,7 @@ struct HomingSettings {
   float pose_rad[kMaxJoints] = {};
   float index_rad[kMaxJoints] = {};  // angle of an index pulse
   float index_period_rad[kMaxJoints] = {};
+  float index_within_rad = 0;  // by which pulses may miss whole periods; at least 2 counts
 };
 
 struct HomingSample {

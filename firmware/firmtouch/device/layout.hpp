@@ -53,6 +53,15 @@ struct HomedLinkageLayout {
 };
 static_assert(sizeof(HomedLinkageLayout) == 196);
 
+/// Index pulses of the joints, behind the linkage and its homing by stops in the same section, so
+/// that a program without part `index_pulses` rejects it (R712). 0 of a joint that is missing.
+struct IndexLayout {
+  float index_rad[3];   // the angle of a pulse
+  float period_rad[3];  // from one to the next
+  float within_rad;     // by which a pulse may be off once the joints are homed
+};
+static_assert(sizeof(IndexLayout) == 28);
+
 /// Second encoders of the joints, behind the linkage and its homing in the same section, so that a
 /// program without part `second_encoders` rejects it (R712).
 struct SecondEncodersLayout {

@@ -27,9 +27,10 @@ const char* rule_name(uint16_t rule) {
       "torque rise: 0.0001 to 1 s",
       "load: masses of 0 to 100 kg, gravity within 100 m/s2, share 0 to 0.9",
       "homing: by stops or pose; torques, speed, margin, pose",
-      "second encoders: 1 to 1e4 counts per rad; within 3 counts and one of the first, to 60"};
+      "second encoders: 1 to 1e4 counts per rad; within 3 counts and one of the first, to 60",
+      "index pulses: home stops; angle; period of 240 counts, margin to range; within 3 to 60"};
   constexpr uint32_t kCount = sizeof kNames / sizeof kNames[0];
-  static_assert(kRuleJointCount + kCount == kRuleSecondEncoder + 1);
+  static_assert(kRuleJointCount + kCount == kRuleIndex + 1);
   const uint32_t number = uint32_t{rule} - kRuleJointCount;
   return number < kCount ? kNames[number] : "unknown rule";
 }

@@ -29,7 +29,7 @@ enum Rule : uint16_t {
   // The fade is not 0.001 <= gone_at < full_from <= 1.
   kRuleFade = 711,
   // The section is not as long as a linkage, or, with parts that read them, as one with
-  // its homing and second encoders.
+  // its homing and its index pulses or second encoders.
   kRuleLinkageSize = 712,
   // There is no such kind of linkage, or not with so many joints.
   kRuleKind = 713,
@@ -44,9 +44,11 @@ enum Rule : uint16_t {
   // out of range, or a word that is not used is not 0.
   kRuleHoming = 717,
   // A second encoder's counts per radian are not 1 to 1e4, with either sign, or the tolerance is
-  // not
-  // from 3 of its counts and one of the first to 60, or it is of no joint, or there is none.
+  // not from 3 of its counts and one of the first to 60, or it is of no joint, or there is none.
   kRuleSecondEncoder = 718,
+  // Homing is not by stops, an index pulse's angle or period is out of range (240 counts and the
+  // margin of homing to the range), its tolerance is not 3 to 60 counts, or it is of no joint.
+  kRuleIndex = 719,
 };
 
 /// What a rule demands, with range and unit, for a message.

@@ -19,8 +19,9 @@ constexpr uint32_t kFlagEncoderFault = 1u << 3;   // a count of this tick is inv
 constexpr uint32_t kFlagModelApart = 1u << 4;   // this tick does not compute the local model
 constexpr uint32_t kFlagModelTaken = 1u << 5;   // this tick starts to use the finished model
 constexpr uint32_t kFlagModelWanted = 1u << 6;  // the next model is made from this tick's position
-// From this bit on a byte each: the low bytes of the counts of the joints' second encoders. 0 where
-// the program does not compare them (controller/redundant_device.hpp).
+// From this bit on a byte each: the low bytes of the counts of the joints' second encoders, or
+// index pulses. 0 where the program uses neither (controller/redundant_device.hpp,
+// indexed_device.hpp).
 constexpr uint32_t kFlagSecondCountsShift = 8;
 
 // TickInput::command. A value out of range, or a parameter that may not change while the motors are
@@ -109,6 +110,15 @@ constexpr uint32_t flags_of_second(const uint8_t (&counts)[kAxes]) {
   uint32_t flags = 0;
   for (uint32_t k = 0; k < kAxes; ++k)
     flags |= uint32_t{counts[k]} << (kFlagSecondCountsShift + 8 * k);
+  return flags;
+}
+
+/// The flags that carry index pulses since the tick before. Bit k of `pulses`: joint k passed one;
+/// `latched`: low bytes of its counts there, of which seven bits are carried.
+constexpr uint32_t flags_of_index(uint32_t pulses, const uint8_t (&latched)[kAxes]) {
+  uint32_t flags = 0;
+  for (uint32_t k = 0; k < kAxes; ++k)
+    if ((pulses >> k & 1u) != 0) flags |= (latched[k] | 0x80u) << (kFlagSecondCountsShift + 8 * k);
   return flags;
 }
 
