@@ -105,12 +105,15 @@ LinkageBody::Dynamics LinkageBody::dynamics_of(const JointMotion& motion) const 
   return all;
 }
 
-void LinkageBody::accelerate(const Dynamics& at, const double (&motor_Nm)[kJoints], Vec hand_N,
-                             double (&acceleration)[kJoints]) const {
-  double torque_Nm[kJoints];
+void LinkageBody::load(const Dynamics& at, Vec hand_N, double (&load_Nm)[kJoints]) {
   for (uint32_t k = 0; k < kJoints; ++k)
-    torque_Nm[k] =
-        at.torque_Nm[k] - at.resisting_Nm[k] + dot(at.tip.column_m[k], hand_N) + motor_Nm[k];
+    load_Nm[k] = at.torque_Nm[k] - at.resisting_Nm[k] + dot(at.tip.column_m[k], hand_N);
+}
+
+void LinkageBody::accelerate(const Dynamics& at, const double (&load_Nm)[kJoints],
+                             const double (&motor_Nm)[kJoints], double (&acceleration)[kJoints]) {
+  double torque_Nm[kJoints];
+  for (uint32_t k = 0; k < kJoints; ++k) torque_Nm[k] = load_Nm[k] + motor_Nm[k];
   for (uint32_t k = 0; k < kJoints; ++k)
     acceleration[k] = at.inverse[k][0] * torque_Nm[0] + at.inverse[k][1] * torque_Nm[1] +
                       at.inverse[k][2] * torque_Nm[2];
@@ -156,10 +159,13 @@ LinkageBody::Step LinkageBody::step(const double (&motor_Nm)[kJoints], Vec hand_
   JointMotion next = motion_;
   const double old = 0.5 * time_s / before_s_;
   double now[kJoints], earlier[kJoints], after[kJoints], dry_Nm[kJoints] = {}, torque_Nm[kJoints];
+  double here_Nm[kJoints], before_Nm[kJoints], then_Nm[kJoints];
+  load(here_, hand_N, here_Nm);
+  load(before_, hand_N, before_Nm);
   const auto predict = [&] {
     for (uint32_t k = 0; k < kJoints; ++k) torque_Nm[k] = motor_Nm[k] - dry_Nm[k];
-    accelerate(here_, torque_Nm, hand_N, now);
-    accelerate(before_, torque_Nm, hand_N, earlier);
+    accelerate(here_, here_Nm, torque_Nm, now);
+    accelerate(before_, before_Nm, torque_Nm, earlier);
     for (uint32_t k = 0; k < kJoints; ++k)
       next.rate_rad_per_s[k] =
           motion_.rate_rad_per_s[k] + time_s * ((1 + old) * now[k] - old * earlier[k]);
@@ -172,7 +178,8 @@ LinkageBody::Step LinkageBody::step(const double (&motor_Nm)[kJoints], Vec hand_
   for (uint32_t k = 0; k < kJoints; ++k)
     next.angle_rad[k] += 0.5 * time_s * (motion_.rate_rad_per_s[k] + next.rate_rad_per_s[k]);
   const Dynamics then = dynamics_of(next);
-  accelerate(then, torque_Nm, hand_N, after);
+  load(then, hand_N, then_Nm);
+  accelerate(then, then_Nm, torque_Nm, after);
   double error = 0, motors_J = 0, lost_J = 0;
   for (uint32_t k = 0; k < kJoints; ++k) {
     const double off = time_s * (0.5 * (after[k] - now[k]) - old * (now[k] - earlier[k]));

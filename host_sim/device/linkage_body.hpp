@@ -76,8 +76,10 @@ class LinkageBody {
   Dynamics dynamics_of(const JointMotion& motion) const;
   void add_links(const MovingPoints& points, Dynamics& to) const;
   void add_stops(const JointMotion& motion, Dynamics& to) const;
-  void accelerate(const Dynamics& at, const double (&motor_Nm)[kJoints], Vec hand_N,
-                  double (&acceleration)[kJoints]) const;
+  // Torques without motors and Coulomb friction, and what all torques do.
+  static void load(const Dynamics& at, Vec hand_N, double (&load_Nm)[kJoints]);
+  static void accelerate(const Dynamics& at, const double (&load_Nm)[kJoints],
+                         const double (&motor_Nm)[kJoints], double (&acceleration)[kJoints]);
   void dry_torques(const double (&free)[kJoints], double old, double time_s,
                    double (&dry_Nm)[kJoints]) const;
   bool is_sound(const JointMotion& motion, const Dynamics& dynamics) const;

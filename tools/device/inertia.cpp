@@ -5,11 +5,20 @@
 namespace firmtouch::tools {
 namespace {
 
+bool has_one_column(const MovingPoint& p) { return p.end == p.first + 1; }
+
 // Moments of mass at two points of a linkage, both halves of the symmetric sum: on the diagonal and
-// below it. Over all columns, because those that are 0 change no bit and loops of a known length
-// unroll.
+// below it. Columns that are 0 change no bit: a base or an elbow of a loop has none or one. Over
+// all others, because loops of a known length unroll.
 void add_masses(double mass_kg, const MovingPoint& p, const MovingPoint& q,
                 double (&to)[kJoints][kJoints]) {
+  if (p.end == 0) return;
+  if (has_one_column(p)) {
+    const uint32_t k = p.first;
+    for (uint32_t j = 0; j <= k; ++j) to[k][j] += mass_kg * dot(p.column_m[k], q.column_m[j]);
+    for (uint32_t i = k; i < kJoints; ++i) to[i][k] += mass_kg * dot(q.column_m[i], p.column_m[k]);
+    return;
+  }
   for (uint32_t i = 0; i < kJoints; ++i)
     for (uint32_t j = 0; j <= i; ++j) {
       to[i][j] += mass_kg * dot(p.column_m[i], q.column_m[j]);
@@ -19,6 +28,12 @@ void add_masses(double mass_kg, const MovingPoint& p, const MovingPoint& q,
 
 // The same of a mass at one point.
 void add_mass(double mass_kg, const MovingPoint& p, double (&to)[kJoints][kJoints]) {
+  if (p.end == 0) return;
+  if (has_one_column(p)) {
+    const uint32_t k = p.first;
+    to[k][k] += mass_kg * dot(p.column_m[k], p.column_m[k]);
+    return;
+  }
   for (uint32_t i = 0; i < kJoints; ++i)
     for (uint32_t j = 0; j <= i; ++j) to[i][j] += mass_kg * dot(p.column_m[i], p.column_m[j]);
 }
