@@ -120,6 +120,20 @@ TEST(Homing_FaultsAreNamed) {
   CHECK(mass.ticks <= 2001u);
 }
 
+// Pulses behind a cable miss whole periods by what it gives.
+TEST(Homing_PulsesOffByMoreThanTheTolerance_AreWrong) {
+  const float kWithin_counts[] = {0, 6, 8};
+  for (const float within_counts : kWithin_counts) {
+    device::HomingSettings tight = settings(HomeBy::kIndex);
+    tight.index_period_rad[0] = 0.5035f;  // 7 counts off
+    tight.index_within_rad = within_counts / kCounts;
+    Mass mass;
+    const device::HomingState state = home_it(mass, tight);
+    CHECK(state.is_done == (within_counts > 7));
+    CHECK(state.is_done || state.fault == HomingFault::kWrongIndex);
+  }
+}
+
 TEST(Homing_FingerBesideASoftStop_IsBlocked) {
   // The stop gives way by an index period, and the finger stands as far from the other stop.
   Mass mass;
