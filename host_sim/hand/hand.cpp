@@ -8,6 +8,10 @@ namespace {
 
 // Share of a press's time for the approach, and again for the return.
 constexpr double kPressShare = 0.25;
+// Share of a startle's time for the way there. It and the times are assumed.
+constexpr double kStartleShare = 0.2;
+constexpr double kClose_s = 0.2;  // of a grip, assumed
+constexpr double kPi = 3.14159265358979323846;
 // Time in which a person begins or ends to press on a surface, roughly.
 constexpr double kLeanTime_s = 0.4;
 
@@ -25,6 +29,7 @@ Hand::Hand(const Scenario& scenario, const Environment& environment, double tool
     : model_(scenario.hand), environment_(&environment), tool_radius_m_(tool_radius_m) {
   start_m_ = scenario.start_m;
   Vec at = start_m_;
+  for (const Move& move : scenario.moves) lets_go_ |= move.kind == Move::Kind::kLetGo;
   double now = 0, arc = 0;
   for (const Move& move : scenario.moves) {
     if (move.kind == Move::Kind::kFollow && !environment.has_guide())
@@ -72,7 +77,12 @@ Vec Hand::along(const Phase& phase, double time_s) const {
   const double share = length_s > 0 ? (time_s - phase.begin_s) / length_s : 1;
   switch (phase.move.kind) {
     case Move::Kind::kHold:
+    case Move::Kind::kLetGo:
       return phase.from_m;
+    case Move::Kind::kStartle:
+      return share < kStartleShare ? between(phase.from_m, phase.move.to_m, share / kStartleShare)
+                                   : between(phase.move.to_m, phase.from_m,
+                                             (share - kStartleShare) / (1 - kStartleShare));
     case Move::Kind::kMove:
       return between(phase.from_m, phase.move.to_m, share);
     case Move::Kind::kPress:
@@ -91,9 +101,32 @@ Vec Hand::target_m(double time_s) const {
   return phases_.empty() ? start_m_ : along(phases_.back(), phases_.back().end_s);
 }
 
-Vec Hand::force_N(Vec target_m, Vec target_mps, Vec position_m, Vec velocity_mps) const {
-  return (target_m - position_m) * model_.stiffness_N_per_m +
-         (target_mps - velocity_mps) * model_.damping_N_s_per_m;
+double Hand::grip(double time_s) const {
+  double share = 1;
+  for (const Phase& phase : phases_) {
+    if (phase.move.kind != Move::Kind::kLetGo || time_s < phase.begin_s) continue;
+    share = time_s < phase.end_s ? 0 : smooth((time_s - phase.end_s) / kClose_s);
+  }
+  return share;
+}
+
+Vec Hand::force_N(double time_s, Vec target_m, Vec target_mps, Vec position_m,
+                  Vec velocity_mps) const {
+  if (model_.tremor_m > 0) {
+    const double turn = 2 * kPi * model_.tremor_Hz, third = 2 * kPi / 3;
+    const double phase[3] = {turn * time_s, turn * time_s + third, turn * time_s - third};
+    target_m = target_m +
+               Vec{std::sin(phase[0]), std::sin(phase[1]), std::sin(phase[2])} * model_.tremor_m;
+    target_mps = target_mps + Vec{std::cos(phase[0]), std::cos(phase[1]), std::cos(phase[2])} *
+                                  (model_.tremor_m * turn);
+  }
+  const Vec stretch_m = target_m - position_m;
+  double stiffness_N_per_m = model_.stiffness_N_per_m;
+  if (model_.stiffening_per_m > 0)
+    stiffness_N_per_m *= 1 + model_.stiffening_per_m * norm(stretch_m);
+  const Vec force_N =
+      stretch_m * stiffness_N_per_m + (target_mps - velocity_mps) * model_.damping_N_s_per_m;
+  return lets_go_ ? force_N * grip(time_s) : force_N;
 }
 
 }  // namespace firmtouch::host_sim

@@ -6,7 +6,8 @@
 
 namespace firmtouch::host_sim {
 
-/// Simulated hand: a spring and damper between the device and a scripted target.
+/// Simulated hand: a spring and damper between the device and a scripted target, with tremor. It
+/// may let go.
 class Hand {
  public:
   /// Throws Refused if the script follows a guide and the asset has none.
@@ -16,7 +17,8 @@ class Hand {
   double end_s() const { return phases_.empty() ? 0 : phases_.back().end_s; }
   Vec start_m() const { return start_m_; }
   Vec target_m(double time_s) const;
-  Vec force_N(Vec target_m, Vec target_mps, Vec position_m, Vec velocity_mps) const;
+  /// At a time of the script, with the target where the arm has it.
+  Vec force_N(double time_s, Vec target_m, Vec target_mps, Vec position_m, Vec velocity_mps) const;
 
  private:
   struct Phase {
@@ -27,12 +29,14 @@ class Hand {
   };
   Vec along(const Phase& phase, double time_s) const;
   Vec on_guide(const Phase& phase, double time_s) const;
+  double grip(double time_s) const;  // 0: open, 1: closed
 
   HandModel model_;
   const Environment* environment_;
   double tool_radius_m_;
   Vec start_m_;
   std::vector<Phase> phases_;
+  bool lets_go_ = false;
 };
 
 }  // namespace firmtouch::host_sim

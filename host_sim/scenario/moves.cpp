@@ -5,11 +5,13 @@ namespace {
 
 constexpr double kMaxSpeed_mps = 10;
 constexpr double kMaxTime_s = 3600;
+constexpr double kStartle_s = 0.5;
 
 }  // namespace
 
 bool is_move(const std::string& name) {
-  return name == "move" || name == "hold" || name == "press" || name == "follow";
+  return name == "move" || name == "hold" || name == "press" || name == "follow" ||
+         name == "startle" || name == "let_go";
 }
 
 Move read_move(const std::string& name, tools::LineReader& words) {
@@ -22,7 +24,15 @@ Move read_move(const std::string& name, tools::LineReader& words) {
     move.speed_mps = words.quantity("move ... at", "m/s", 1e-6, kMaxSpeed_mps);
     return move;
   }
-  if (name == "press") {
+  if (name == "startle") {
+    move.kind = Move::Kind::kStartle;
+    move.to_m = words.point("startle");
+    move.time_s = kStartle_s;
+    return move;
+  }
+  if (name == "let_go") {
+    move.kind = Move::Kind::kLetGo;
+  } else if (name == "press") {
     move.kind = Move::Kind::kPress;
     move.to_m = words.point("press");
   } else if (name == "follow") {

@@ -43,6 +43,13 @@ const Key kKeys[] = {
      [](Scenario& s) -> double& { return s.hand.stiffness_N_per_m; }, "of the grip"},
     {"hand_damping", "N*s/m", 0, 1000,
      [](Scenario& s) -> double& { return s.hand.damping_N_s_per_m; }, "of the grip"},
+    {"hand_stiffening", "1/m", 0, 10000,
+     [](Scenario& s) -> double& { return s.hand.stiffening_per_m; },
+     "share by which the grip is stiffer a metre that it is stretched"},
+    {"hand_tremor", "m", 0, 0.1, [](Scenario& s) -> double& { return s.hand.tremor_m; },
+     "amplitude in each axis"},
+    {"hand_tremor_frequency", "Hz", 0.1, 50,
+     [](Scenario& s) -> double& { return s.hand.tremor_Hz; }, "people have 8 to 12 Hz"},
 };
 constexpr double kMaxDelaySamples = 64;     // force feedback is impossible with more than 64 ms
 constexpr double kMaxTurn_rad = 6.2831853;  // of a tool, as the controller allows
@@ -280,6 +287,8 @@ std::string scenario_help() {
           "  move to X Y Z m at V m/s\n"
           "  hold for T s\n"
           "  press X Y Z m for T s             go there, stay for half the time, and return\n"
+          "  startle X Y Z m                   jerk there within 0.1 s, and return in 0.4 s\n"
+          "  let_go for T s                    no force; then the grip closes in 0.2 s\n"
           "  follow guide at V m/s for T s [pressing D m]\n"
           "                                    D: depth of the hand's aim below the surface\n\n"
           "Events, independent of the script:\n"

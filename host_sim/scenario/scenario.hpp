@@ -17,15 +17,20 @@ using tools::Refused;
 struct HandModel {
   double stiffness_N_per_m = 400;  // a relaxed grip
   double damping_N_s_per_m = 4;
+  // A grip stiffens with force: that of a stretch s is stiffness s (1 + stiffening s).
+  double stiffening_per_m = 0;
+  // Physiological tremor has 8 to 12 Hz (Elble & Koller 1990, Tremor). In each axis; their phases
+  // differ by a third of a cycle.
+  double tremor_m = 0, tremor_Hz = 10;
 };
 
 /// One line of the hand's script; the lines run one after the other.
 struct Move {
-  enum class Kind { kHold, kMove, kPress, kFollow };
+  enum class Kind { kHold, kMove, kPress, kFollow, kLetGo, kStartle };
   Kind kind = Kind::kHold;
-  Vec to_m;              // kMove, kPress
+  Vec to_m;              // kMove, kPress, kStartle
   double speed_mps = 0;  // kMove, kFollow
-  double time_s = 0;     // kHold, kPress, kFollow
+  double time_s = 0;     // all but kMove
   // kFollow: depth of the hand's aim below the surface; 0: it follows the guide itself.
   double press_m = 0;
 };

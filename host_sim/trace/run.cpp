@@ -7,6 +7,7 @@
 
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "host_sim/hand/arm.hpp"
 #include "host_sim/hand/hand.hpp"
 #include "host_sim/plant/machine.hpp"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr uint32_t kMaxTicks = 1000000000;  // 28 h at 10 kHz; record numbers stay below 2^32
 constexpr uint32_t kSettlingTicks = 5;  // between the last initial parameter and the enable line
-constexpr double kArmLag_s = 0.012;     // of each of the arm's two lags
 constexpr double kReach_s = 1;          // of the hand, from where a linkage was homed
 constexpr double kMaxWait_s = 10;       // by which homing and reaching lengthen a run
 
@@ -40,30 +40,6 @@ uint32_t model_ticks(const Scenario& scenario) {
 size_t setup_ticks(const Scenario& scenario) {
   return scenario.settings.size() + kSettlingTicks + 3 * size_t{model_ticks(scenario)};
 }
-
-// Low-pass filter between the script and the hand's spring: two equal first-order lags. It rounds
-// the script's corners as an arm does.
-class Arm {
- public:
-  // Steps of `time_s`.
-  Arm(Vec start_m, double time_s)
-      : first_m_(start_m),
-        second_m_(start_m),
-        per_s_(1 / time_s),
-        share_(-std::expm1(-time_s / kArmLag_s)) {}
-  void advance(Vec script_m) {
-    first_m_ = first_m_ + (script_m - first_m_) * share_;
-    const Vec before = second_m_;
-    second_m_ = second_m_ + (first_m_ - second_m_) * share_;
-    velocity_mps_ = (second_m_ - before) * per_s_;
-  }
-  Vec position_m() const { return second_m_; }
-  Vec velocity_mps() const { return velocity_mps_; }
-
- private:
-  Vec first_m_, second_m_, velocity_mps_;
-  double per_s_, share_;
-};
 
 // Flags and command of each tick, from the scenario's settings and events.
 class Operator {
@@ -286,7 +262,7 @@ struct Simulation::Loop {
 
   Vec hand_N() const {
     if (is_away() || machine.is_torn_off()) return {};
-    return hand.force_N(arm.position_m(), arm.velocity_mps(), machine.position_m(),
+    return hand.force_N(script_s, arm.position_m(), arm.velocity_mps(), machine.position_m(),
                         machine.velocity_mps());
   }
   bool is_away() const { return (last.state & record::kStateNotHomed) != 0; }
@@ -299,7 +275,8 @@ struct Simulation::Loop {
       reach_from = machine.joints();
       reach_left_s = kReach_s;
     }
-    if (!is_away() && !(reach_left_s > 0)) return hand.target_m((before - waited) * period_s);
+    script_s = (before - waited) * period_s;
+    if (!is_away() && !(reach_left_s > 0)) return hand.target_m(script_s);
     ++waited;
     if (!is_away()) reach_left_s -= period_s;
     return machine.on_way_to_start_m(reach_from, 1 - reach_left_s / kReach_s);
@@ -312,6 +289,7 @@ struct Simulation::Loop {
       const Vec force_N = hand_N(), from_m = machine.position_m();
       machine.advance(force_N, substep_s);
       hand_J += dot(force_N, machine.position_m() - from_m);
+      script_s += substep_s;
     }
   }
 
@@ -327,6 +305,7 @@ struct Simulation::Loop {
   record::TickOutput last{};
   double hand_J = 0;
   uint32_t tick = 0;
+  double script_s = 0;
   JointMotion reach_from;
   double reach_left_s = 0;
   uint32_t waited = 0, max_waited = 0;  // ticks

@@ -1,0 +1,33 @@
+#pragma once
+#include <cmath>
+
+#include "host_sim/scenario/scenario.hpp"
+
+namespace firmtouch::host_sim {
+
+/// Low-pass filter between the script and the hand's spring: two equal first-order lags. It rounds
+/// the script's corners as an arm does.
+class Arm {
+ public:
+  /// Steps of `time_s`.
+  Arm(Vec start_m, double time_s)
+      : first_m_(start_m),
+        second_m_(start_m),
+        per_s_(1 / time_s),
+        share_(-std::expm1(-time_s / kLag_s)) {}
+  void advance(Vec script_m) {
+    first_m_ = first_m_ + (script_m - first_m_) * share_;
+    const Vec before = second_m_;
+    second_m_ = second_m_ + (first_m_ - second_m_) * share_;
+    velocity_mps_ = (second_m_ - before) * per_s_;
+  }
+  Vec position_m() const { return second_m_; }
+  Vec velocity_mps() const { return velocity_mps_; }
+
+ private:
+  static constexpr double kLag_s = 0.012;
+  Vec first_m_, second_m_, velocity_mps_;
+  double per_s_, share_;
+};
+
+}  // namespace firmtouch::host_sim
