@@ -74,7 +74,7 @@ class RunOutputs {
     if (const std::string path = options.text("--log"); !path.empty())
       log_.emplace(path, log_text(scenario, session, facts, path));
     if (!options.text("--report").empty() || !options.text("--picture").empty()) {
-      charts_.emplace(environment, facts);
+      charts_.emplace(environment, facts, scenario.linkage ? &*scenario.linkage : nullptr);
       paths_.emplace(environment, scenario, facts);
     }
   }

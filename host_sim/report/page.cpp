@@ -164,9 +164,10 @@ std::string table(const Report& report, const Scene3d& scene3d) {
               ? row("Tool radius", fixed(scene3d.tool_radius_m * 1e3, 2) + " mm")
               : row("Tool", std::to_string(scene3d.spheres.size()) + " spheres; torque at most " +
                                 fixed(report.summary.peak_torque_Nm * 1e3, 2) + " mN m");
-  rows +=
-      row("Device", fixed(scenario.device.mass_kg * 1e3, 0) + " g, " +
-                        fixed(scenario.device.encoder_quantum_m * 1e6, 0) + " &micro;m per count");
+  rows += row("Device", scenario.linkage ? html_of(scenario.device_file)
+                                         : fixed(scenario.device.mass_kg * 1e3, 0) + " g, " +
+                                               fixed(scenario.device.encoder_quantum_m * 1e6, 0) +
+                                               " &micro;m per count");
   rows += row("Faults latched", faults_text(s));
   return "<table>" + rows + "</table>";
 }

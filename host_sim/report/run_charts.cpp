@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmtouch/servo/fault.hpp"
+#include "host_sim/device/linkage_body.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -43,7 +44,43 @@ std::vector<RunChart> surface_charts() {
            3}};
 }
 
-std::vector<RunChart> charts_of(const Environment& environment) {
+// Of the Jacobian, where the record has the tip; 0 where it cannot be.
+class Condition {
+ public:
+  explicit Condition(const tools::LinkageDevice& device) : device_(&device) {}
+  double operator()(const RunTick& tick) {
+    const float(&at_m)[3] = tick.record.output.position_m;
+    const Vec tip_m = {wide(at_m[0]), wide(at_m[1]), wide(at_m[2])};
+    is_found_ =
+        is_found_ ? find_angles_from(*device_, tip_m, at_) : find_angles(*device_, tip_m, at_);
+    if (!is_found_) return 0;
+    float angle_rad[device::kMaxJoints];
+    for (uint32_t k = 0; k < device::kMaxJoints; ++k)
+      angle_rad[k] = static_cast<float>(at_.angle_rad[k]);
+    return std::visit(
+        [&](const auto& linkage) {
+          return wide(device::pose_of(linkage, angle_rad).reciprocal_condition);
+        },
+        device_->linkage);
+  }
+
+ private:
+  const tools::LinkageDevice* device_;
+  JointMotion at_;
+  bool is_found_ = false;
+};
+
+RunChart condition_chart(const tools::LinkageDevice& device) {
+  return {"Reciprocal condition of the linkage",
+          "",
+          "1: it moves alike in all directions; 0: a singularity. Below " +
+              fixed(wide(device.limits.full_from), 2) + " its force fades, from " +
+              fixed(wide(device.limits.gone_at), 2) + " down there is none.",
+          {{"at the tool", kGreen, Condition(device), false, 1.2}}};
+}
+
+std::vector<RunChart> charts_of(const Environment& environment,
+                                const tools::LinkageDevice* linkage) {
   std::vector<RunChart> charts = {
       {"Force",
        "N",
@@ -77,6 +114,7 @@ std::vector<RunChart> charts_of(const Environment& environment) {
          [](const RunTick& tick) { return length(tick.record.output.velocity_mps) * 1e3; }, false,
          1.2}},
        1});
+  if (linkage != nullptr) charts.push_back(condition_chart(*linkage));
   charts.push_back(
       {"Instructions a tick",
        "instr.",
@@ -98,11 +136,12 @@ std::string note_of_distance(const Summary& s) {
 
 }  // namespace
 
-RunCharts::RunCharts(const Environment& environment, const RunFacts& facts)
+RunCharts::RunCharts(const Environment& environment, const RunFacts& facts,
+                     const tools::LinkageDevice* linkage)
     : facts_(facts),
       ticks_per_bin_(1 + (facts.ticks - 1) / static_cast<uint32_t>(kMaxBins)),
       bins_(1 + (facts.ticks - 1) / ticks_per_bin_),
-      charts_(charts_of(environment)) {
+      charts_(charts_of(environment, linkage)) {
   axis_.seconds = static_cast<double>(bins_) * ticks_per_bin_ / facts.rate_Hz;
   min_gap_s_ = std::max(0.004, axis_.seconds / 4096);
   for (RunChart& chart : charts_)

@@ -5,6 +5,7 @@
 
 #include "chart/chart.hpp"
 #include "chart/envelope.hpp"
+#include "device/device_file.hpp"
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/report/summary.hpp"
 #include "host_sim/trace/run.hpp"
@@ -33,14 +34,16 @@ struct RunChart {
 };
 
 /// The charts of a run, most important first: force, penetration, distance with its bound, visits,
-/// guide, speed, and instructions if they are counted. Memory: at most kMaxBins bins a line.
+/// guide, speed, a linkage's condition, and instructions if they are counted. Memory: at most
+/// kMaxBins bins a line.
 class RunCharts {
  public:
   /// At 1 kHz 16 s have a bin for each tick; a longer run keeps the least and greatest of each bin.
   static constexpr size_t kMaxBins = 16384;
 
-  /// `facts` outlives this.
-  RunCharts(const Environment& environment, const RunFacts& facts);
+  /// `linkage`: null for a Cartesian device. It and `facts` outlive this.
+  RunCharts(const Environment& environment, const RunFacts& facts,
+            const tools::LinkageDevice* linkage = nullptr);
   void add(const RunTick& tick);
   /// After the last tick: notes and limits.
   void finish(const Summary& summary);
