@@ -63,10 +63,10 @@ APlanTakesTheProgramsOfYourBuildAndRefusesOthers() {
 APlanChoosesThePoolOfATickByWhatTheCoreDoes() {
   f make path -o path.csv; exits 0
   f plan path.csv --flash 1M --ram 64K --rate 1k --mips 460; exits 0
-  printf '%s\n' "$out" | grep -q '^tick_work 1000: 530 units for queries; 230 of 460 million' || fail "$out"
-  f plan path.csv --flash 1M --ram 64K --rate 4k --mips 460; exits 0
-  printf '%s\n' "$out" | grep -q '^tick_work 500: 30 units' || fail "$out"
-  f plan path.csv --flash 1M --ram 64K --rate 4k --mips 108.34; exits 0
+  printf '%s\n' "$out" | grep -q '^tick_work 1000: 465 units for queries; 230 of 460 million' || fail "$out"
+  f plan path.csv --flash 1M --ram 64K --rate 3k --mips 460; exits 0
+  printf '%s\n' "$out" | grep -q '^tick_work 666: 131 units' || fail "$out"
+  f plan path.csv --flash 1M --ram 64K --rate 4k --mips 123.3; exits 0
   printf '%s\n' "$out" | grep -q 'geometry at most at 1000 Hz then' || fail "$out"
   # The page of the budget derives the same bound of a tick.
   grep -q '230,000 with the default of 1,000' "$here/../../firmware/firmtouch/query/README.md" || fail 'another bound'

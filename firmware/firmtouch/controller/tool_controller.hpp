@@ -10,8 +10,8 @@ using SurfacesWithTool = Surfaces<MeshTool, MeshObjects, Mesh, SplineSurface>;
 
 /// Every part of the library, several objects, materials of triangles, a tool of several
 /// spheres (part `tool`), index pulses and second encoders (parts `index_pulses`,
-/// `second_encoders`). The same parameters, and
-/// the same bits for an asset without any of these. What the simulator runs.
+/// `second_encoders`). The same parameters, and the same bits for an asset without any of these.
+/// What the simulator runs.
 class ToolController : public EveryPart<OneScene, RedundantDevice<IndexedDevice>, FullMaterialMesh,
                                         SurfacesWithTool<FullMaterialMesh>> {
  public:

@@ -33,8 +33,8 @@ struct NearestInPlanes {
 /// optimum of some planes the dual method goes to that of them and of the plane that is violated
 /// most, and lets go of planes that would pull, until none is violated. `before`: the active planes
 /// of a like problem, in any state; if all of them push here, it begins with them.
-/// Bounds: at most 12 planes join, each after at most 3 that are let go; 9,500 instructions for 7
-///         planes, the worst that a search found.
+/// Bounds: at most 12 planes join, each after at most 3 that are let go; at most 9,500 instructions
+///         for 7 planes, of which a search found 9,000.
 /// Result: finite where all input is finite and below 1e6 m. Planes beyond kMaxHalfSpaces are
 ///         ignored, and so are those with NaN. No plane: the goal. A goal with NaN: the origin.
 /// Error: 1e-5 |goal|; planes that agree in direction to 1e-5 rad count as one.

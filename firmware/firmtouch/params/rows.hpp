@@ -11,9 +11,9 @@ constexpr float kInitialTickPeriod_s = 0.001f;
 /// Most instructions of a Cortex-M7 that a tick takes for each unit of tick_work, base hulls apart.
 constexpr float kInstructionsAUnit = 230.0f;
 /// These units of tick_work hold what it takes beside those of its queries: 5,000, a proxy's own
-/// 45,000 (scene/proxy.hpp), its four queries with 11,000 each, one of a guide with 14,000
+/// 60,000 (scene/proxy.hpp), its four queries with 11,000 each, one of a guide with 14,000
 /// (query/README.md).
-constexpr float kFixedTickWork = 470.0f;
+constexpr float kFixedTickWork = 535.0f;
 
 /// Limits of force and time: servo, guard and clock.
 struct SafetyRows {
@@ -31,7 +31,7 @@ struct SafetyRows {
       {kModelAge, "model_age", "1", 1.0f, 1000.0f, 3.0f, When::kAnytime,
        "ticks that a local model is valid"},
       {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 1000.0f, When::kMayFall,
-       "work of a tick, 470 of it fixed"},
+       "work of a tick, 535 of it fixed"},
       {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
        "energy that contact may give"},
       {kDeviceDamping, "device_damping_N_s_per_m", "N s/m", 0.0f, 50.0f, 0.5f, When::kMayFall,
