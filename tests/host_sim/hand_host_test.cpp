@@ -61,6 +61,7 @@ TEST(Hand_WithTremor_SwingsAtItsFrequencyAndAmplitude) {
     rises += before_N < 0 && force_N.x >= 0;
     before_N = force_N.x;
     sum_N += force_N.x;
+    CHECK_LE(std::abs(force_N.x + force_N.y + force_N.z), 1e-12);  // a third of a cycle apart
     most_N = std::max(most_N, std::abs(force_N.x));
   }
   CHECK(rises == 15 || rises == 16);
