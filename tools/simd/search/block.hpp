@@ -18,6 +18,16 @@ constexpr uint32_t chosen(bool is, uint32_t one, uint32_t other) {
   return (one & mask) | (other & ~mask);
 }
 
+/// bound.prune_key(), without a branch: most blocks have fewer than four leaves, and no predictor
+/// learns which.
+[[gnu::always_inline]] static inline uint32_t prune_key_of(const NearBound& bound,
+                                                           float distance2_m2) {
+  const uint32_t bits = math::bits_of(distance2_m2 * bound.prune_per_m2);
+  const bool is_near = bits < math::bits_of(4.2e9f);  // floats of 0 and above order as their bits
+  const float cells2 = math::float_of(chosen(is_near, bits, 0));
+  return chosen(is_near, static_cast<uint32_t>(cells2) + 1, kFarthest);
+}
+
 /// The keys of the boxes below a block's node. A child that is a leaf counts as its own leaf 0.
 /// Boxes that are not there have a key that no cutoff exceeds.
 struct BlockKeys {
@@ -52,15 +62,18 @@ struct BlockKeys {
                                                          uint32_t node, uint32_t& prune,
                                                          Best& best) {
   uint32_t least[4], key_after[4];
+#pragma GCC unroll 4
   for (uint32_t i = 0; i < 4; ++i) {
     const float min2_m2 = minimum_of(feet.distance2_m2, (block.lanes >> (8 * i)) & 0xFFu);
     least[i] = math::bits_of(min2_m2);  // these order as the squares do: none is below 0
-    key_after[i] = bound.prune_key(min2_m2);
+    key_after[i] = prune_key_of(bound, min2_m2);
   }
   uint32_t steps = 0, found = math::bits_of(best.distance2_m2), nearest = 4;
+#pragma GCC unroll 2
   for (uint32_t i = 0; i < 2; ++i) {
     const uint32_t child = i ^ keys.is_later_first;
     steps += keys.child[child] < prune ? 1 : 0;
+#pragma GCC unroll 2
     for (uint32_t k = 0; k < 2; ++k) {
       const uint32_t leaf = 2 * child + (k ^ keys.are_leaves_swapped[child]);
       const bool is_read = keys.leaf[leaf] < prune;
@@ -73,7 +86,7 @@ struct BlockKeys {
   }
   if (nearest == 4) return steps;
   const uint32_t which = nearest >> 1, child = sides[which].child;
-  const uint32_t slot = is_leaf(child) ? 2 * node + which : 2 * child + (nearest & 1);
+  const uint32_t slot = chosen(is_leaf(child), 2 * node + which, 2 * child + (nearest & 1));
   put_nearest(feet, (block.lanes >> (8 * nearest)) & 0xFFu, block.of.first, slot, best);
   return steps;
 }
