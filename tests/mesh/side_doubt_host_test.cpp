@@ -57,15 +57,12 @@ TEST(SideDoubt_CoversTheLossOfTheOffset) {
   head.longest_edge_m = 1;
   head.diagonal_m = 1;
   const mesh::Loss loss(head);
-  mesh::Found found;
-  found.distance_m = 1e-5f;  // either sign is right nearer than 2e-6
-  found.search.best.offset_m = {found.distance_m, 0, 0};
+  const float distance_m = 1e-5f;  // either sign is right nearer than 2e-6
+  const float loss_m = loss.reported_m(distance_m);
   // A plane above which the true height may have the other sign.
   const Signs signs;
-  const float height = static_cast<float>(0.9 * error) / found.distance_m;
-  CHECK_EQ(int{mesh::sign_of(signs, found, {height, 0, 0}, loss.reported_m(found.distance_m), 1)},
-           0);
-  CHECK_EQ(int{mesh::sign_of(signs, found, {-height, 0, 0}, loss.reported_m(found.distance_m), 1)},
-           0);
+  const float height = static_cast<float>(0.9 * error) / distance_m;
+  for (const float side : {height, -height})
+    CHECK_EQ(int{mesh::sign_of(signs, {distance_m, 0, 0}, distance_m, {side, 0, 0}, loss_m, 1)}, 0);
   CHECK_GE(double{signs.doubt_m}, error);
 }

@@ -27,7 +27,7 @@ inline math::Vec3 along(const BoxFrame& frame, math::Vec3 v) {
 }
 
 /// `p_m` in the frame. Called, so that meshes without a frame do not pay for its registers.
-[[gnu::noinline]] inline math::Vec3 turned(const BoxFrame& frame, math::Vec3 p_m) {
+[[gnu::noinline, gnu::cold]] inline math::Vec3 turned(const BoxFrame& frame, math::Vec3 p_m) {
   return along(frame, p_m - math::Vec3{frame.centre_m[0], frame.centre_m[1], frame.centre_m[2]});
 }
 

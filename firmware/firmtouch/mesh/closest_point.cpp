@@ -10,17 +10,17 @@ struct ScalarFinder {
   const View& mesh;
 
   template <bool kCompensated, class Bound>
-  void find(const Bound& bound, Search& search) const {
+  bool find(const Bound& bound, Search& search) const {
     if constexpr (kCompensated)
-      search_nearest<true, Bound, void>(mesh, bound, search);
+      return search_nearest<true, Bound, void>(mesh, bound, search);
     else if (mesh.has_rivals())
-      search_nearest<false, Bound, WithRivals>(mesh, bound, search);
+      return search_nearest<false, Bound, WithRivals>(mesh, bound, search);
     else if (mesh.leaf_boxes() != nullptr)
-      search_nearest<false, Bound, Boxed>(mesh, bound, search);
+      return search_nearest<false, Bound, Boxed>(mesh, bound, search);
     else if (!mesh.triangles16().empty())
-      search_nearest<false, Bound, uint16_t>(mesh, bound, search);
+      return search_nearest<false, Bound, uint16_t>(mesh, bound, search);
     else  // rare on a controller: a loop of their own takes 3 kB
-      search_nearest<false, Bound, WithRivals>(mesh, bound, search);
+      return search_nearest<false, Bound, WithRivals>(mesh, bound, search);
   }
   [[gnu::always_inline]] inline Vec3 direction(const Best& best) const {
     return feature_direction(mesh, best.triangle, best.feature);

@@ -2,9 +2,9 @@
 // From a search for the nearest triangle to an answer with its certificate. The scalar search and
 // the wide one of tools/simd share it. For the library's own translation units.
 //
-// A Finder has three functions: find<kCompensated>(bound, search) searches, direction(best) returns
-// the pseudonormal of the best feature, sign(height_m, doubt_m) returns the sign of a height, 0 in
-// doubt.
+// A Finder has three functions: find<kCompensated>(bound, search) searches and returns whether no
+// nearer triangle can be left, direction(best) returns the pseudonormal of the best feature,
+// sign(height_m, doubt_m) returns the sign of a height, 0 in doubt.
 
 #include <float.h>
 
@@ -36,15 +36,14 @@ constexpr float kBeyond_m = 1e15f;
 
 bool is_slot(const View& mesh, uint32_t slot) {
   if ((slot >> 1) >= mesh.nodes().size()) return false;
-  const uint32_t child = mesh.sides()[slot].child;
-  return is_leaf(child) && leaf_count(child) != 0;
+  return is_leaf(mesh.sides()[slot].child);
 }
 
-// The result of a search and its certified bounds.
+// What a search certifies.
 struct Found {
-  Search search;
   float distance_m;
-  float lower_m;  // certified by this search alone
+  float lower_m;  // by this search alone
+  bool complete;  // no nearer triangle can be left
 };
 
 // Lower bound of all distances before rounding: beyond the band nothing was searched.
@@ -58,12 +57,11 @@ float less_m(float a_m, float b_m) {
   return a_m - s_m < b_m ? s_m * (1.0f - 0x1p-23f) : s_m;
 }
 
-void weigh(Found& found, float lower_m, float rounding_m) {
-  found.distance_m = math::square_root(found.search.best.distance2_m2);
-  found.lower_m = lower_m;
-  const float pending_m = found.search.pending_m - rounding_m;
-  if (!found.search.complete && pending_m < found.lower_m) found.lower_m = pending_m;
-  if (!(found.lower_m > 0.0f)) found.lower_m = 0.0f;
+inline void weigh(const Search& search, float lower_m, float rounding_m, Found& found) {
+  found.distance_m = math::square_root(search.best.distance2_m2);
+  const float pending_m = search.pending_m - rounding_m;
+  if (!found.complete && pending_m < lower_m) lower_m = pending_m;
+  found.lower_m = math::larger(lower_m, 0.0f);
 }
 
 // Measures the nearest triangle of `search`, `nearest`, in double-float, and those rivals that are
@@ -102,21 +100,20 @@ void weigh(Found& found, float lower_m, float rounding_m) {
 
 // Whether lower and upper bound, rounding included, lie on one side of the threshold: then no more
 // precise distance is needed.
-[[gnu::noinline, gnu::cold]] bool is_decided(float threshold_m, float loss_m, Found& found) {
+bool is_decided(float threshold_m, float loss_m, Found& found) {
   const float most_m = found.distance_m + loss_m;
   if (!(threshold_m > 0.0f) || !(found.lower_m >= threshold_m || most_m < threshold_m))
     return false;
   found.distance_m = most_m;
-  found.search.complete = false;  // not exact
+  found.complete = false;  // not exact
   return true;
 }
 
 // Measures again what float32 may have lost: usually it is far less than its bound.
 // Result: whether distance and lower bound are now within `within_m` of each other.
-[[gnu::noinline, gnu::cold]] bool measure_again(const View& mesh, Vec3 p_m, float within_m,
-                                                Found& found) {
-  Search& search = found.search;
-  if (!search.complete) return false;
+bool measure_again(const View& mesh, float within_m, Search& search, Found& found) {
+  const Vec3 p_m = search.p_m;
+  if (!found.complete) return false;
   const Loss loss(mesh.head());
   const float near_m = nearest_m(search);
   const Corners nearest(mesh, search.best.triangle);
@@ -124,7 +121,7 @@ void weigh(Found& found, float lower_m, float rounding_m) {
     const float distance_m =
         nearest.compensated_m(p_m, search.best.feature, search.best.distance2_m2);
     if (distance_m + loss.compensated_m(distance_m) + loss.rounding_m <= within_m) {
-      weigh(found, 0.0f, loss.rounding_m);
+      weigh(search, 0.0f, loss.rounding_m, found);
       found.distance_m = distance_m;
       return true;
     }
@@ -136,7 +133,7 @@ void weigh(Found& found, float lower_m, float rounding_m) {
     const float own_m = best_loss_m(loss, nearest, p_m, search.best, near_m);
     lower_m = math::smaller(near_m - own_m, rivals_lower_m(mesh, loss, search));
     if (near_m - lower_m + own_m <= within_m) {
-      weigh(found, lower_m, loss.rounding_m);
+      weigh(search, lower_m, loss.rounding_m, found);
       return true;
     }
     gap_m = within_m - (loss.rounding_m + 2.0f * loss.compensated_m(near_m));
@@ -149,7 +146,7 @@ void weigh(Found& found, float lower_m, float rounding_m) {
       are_all_known
           ? math::smaller(lower_m, less_m(least_m, loss.compensated_m(least_m) + loss.rounding_m))
           : less_m(near_m, loss.plain_m(near_m) + loss.rounding_m);
-  weigh(found, lower_m, loss.rounding_m);
+  weigh(search, lower_m, loss.rounding_m, found);
   const float max_m = distance_m + loss.compensated_m(distance_m) + loss.rounding_m;
   if (!(max_m - found.lower_m <= within_m)) return false;
   found.distance_m = distance_m;
@@ -159,61 +156,61 @@ void weigh(Found& found, float lower_m, float rounding_m) {
 // The nearest of a search.
 struct Nearest {
   Best best;
-  uint32_t steps, charged;
+  uint32_t parts, charged;
 };
 
-// If that is not enough, the search runs again in double-float, from the nearest leaf. Before it:
-// Result: whether there is a budget for it.
-[[gnu::noinline, gnu::cold]] bool begin_again(const View& mesh, uint32_t budget, Found& found,
-                                              Nearest& before) {
-  Search& search = found.search;
-  const uint32_t used = search.steps + search.charged;
-  before = {search.best, search.steps, search.charged};
-  if (!(search.complete && budget > used)) {
-    search.complete = false;
-    return false;
-  }
-  // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
+// If that is not enough, the search runs again in double-float, from the nearest leaf.
+template <class Finder, class Bound>
+[[gnu::noinline]] void search_again(const View& mesh, const Finder& finder, const Bound& bound,
+                                    uint32_t budget, Search& search, Found& found) {
   const Loss loss(mesh.head());
-  const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
-  search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
-  search.start = search.best.slot;
-  search.best.slot = query::kNowhere;
-  search.budget = budget - used;
-  search.steps = search.charged = 0;
-  return true;
-}
-// After it:
-[[gnu::noinline, gnu::cold]] void end_again(const View& mesh, Vec3 p_m, const Nearest& before,
-                                            bool has_run, Found& found) {
-  const Loss loss(mesh.head());
-  Search& search = found.search;
-  if (has_run) {
-    search.steps += before.steps;
+  const Nearest before{search.best, search.parts, search.charged};
+  const bool has_budget = found.complete && budget > search.parts;
+  found.complete = false;
+  if (has_budget) {
+    // The nearest triangle is no farther than this: in its leaf only near ties are measured again.
+    const float upper_m = found.distance_m + 2.0f * loss.plain_m(found.distance_m);
+    search.best.distance2_m2 = upper_m * upper_m * (1.0f + 0x1p-22f);
+    search.start = search.best.slot;
+    search.best.slot = query::kNowhere;
+    search.budget = budget - search.parts;
+    found.complete = finder.template find<true>(bound, search);
+    search.parts += before.parts;
     search.charged += before.charged;
   }
-  if (search.complete) {
+  if (found.complete) {
     const float near_m = nearest_m(search);
     const float lower_m = less_m(near_m, loss.compensated_m(near_m) + loss.rounding_m);
-    return weigh(found, lower_m, loss.rounding_m);
+    return weigh(search, lower_m, loss.rounding_m, found);
   }
   // No budget left for it: return the true distance of the triangle that was found.
   search.best = before.best;
   if (search.best.slot == query::kNowhere) return;
   const Corners corners(mesh, search.best.triangle);
-  found.distance_m = corners.compensated_m(p_m, search.best.feature, search.best.distance2_m2);
+  found.distance_m =
+      corners.compensated_m(search.p_m, search.best.feature, search.best.distance2_m2);
+}
+
+// Where float32 does not promise `within_m`. Its result is stored, so it is called by value.
+template <class Finder, class Bound>
+[[gnu::noinline, gnu::cold]] Found refined(const View& mesh, Finder finder, const Bound& bound,
+                                           uint32_t budget, float threshold_m, float within_m,
+                                           float loss_m, Search& search, Found found) {
+  if (!is_decided(threshold_m, loss_m, found) && !measure_again(mesh, within_m, search, found))
+    search_again(mesh, finder, bound, budget, search, found);
+  return found;
 }
 
 // The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change
 // it.
 template <class Finder>
-int8_t sign_of(const Finder& finder, const Found& found, Vec3 direction, float loss_m,
+int8_t sign_of(const Finder& finder, Vec3 offset_m, float distance_m, Vec3 direction, float loss_m,
                float diagonal_m) {
-  const float height_m = dot(found.search.best.offset_m, direction);
-  const float doubt_m = kDoubt_rad * found.distance_m + loss_m;
+  const float height_m = dot(offset_m, direction);
+  const float doubt_m = kDoubt_rad * distance_m + loss_m;
   const int side = finder.sign(height_m, doubt_m);
   if (side != 0) return static_cast<int8_t>(side);
-  if (found.distance_m > kEitherSide * diagonal_m) return 0;
+  if (distance_m > kEitherSide * diagonal_m) return 0;
   return height_m >= 0.0f ? 1 : -1;
 }
 
@@ -223,9 +220,6 @@ int8_t sign_of(const Finder& finder, const Found& found, Vec3 direction, float l
   const Best& best = search.best;
   if (best.slot != query::kNowhere) hint.leaf_slot = best.slot;
   hint.triangle_low = static_cast<uint16_t>(best.triangle);
-  hint.position_m.x = search.p_m.x;
-  hint.position_m.y = search.p_m.y;
-  hint.position_m.z = search.p_m.z;
   hint.lower_m = lower_m;
   hint.sign = sign;
   hint.safe_subtree = search.safe_subtree;
@@ -237,50 +231,50 @@ template <class Finder, class Bound>
                                              const Bound& bound, const Vec3& p_m,
                                              const query::Budget& budget, Hint& hint) {
   const float moved_m = query::motion_m(hint, p_m);
-  const bool has_moved = moved_m <= query::kMaxMotion_m;  // else nothing is carried on
+  hint.position_m.x = p_m.x;
+  hint.position_m.y = p_m.y;
+  hint.position_m.z = p_m.z;
   const Loss loss(mesh.head());
-  const float safe_subtree_margin_m = has_moved ? kSafeSubtreeMotions * moved_m : 0.0f;
+  const float safe_subtree_margin_m = kSafeSubtreeMotions * moved_m;
   // FLT_MAX, or a square beyond it: no band.
-  const float band2_m2 = budget.band_m > 0.0f ? budget.band_m * budget.band_m : 0.0f;
-  // After a jump farther than the band the last leaf does not help.
+  const float band_m = math::larger(budget.band_m, 0.0f), band2_m2 = band_m * band_m;
   const uint32_t slot = hint.leaf_slot, safe_subtree = hint.safe_subtree;
-  const bool is_warm = !(safe_subtree_margin_m > budget.band_m) && is_slot(mesh, slot);
-  Found found;  // set without reads between, else its defaults are stored too
-  Search& search = found.search;
+  Search search;  // set without reads between, else its defaults are stored too
   search.p_m.x = p_m.x;
   search.p_m.y = p_m.y;
   search.p_m.z = p_m.z;
-  search.start = is_warm ? slot : query::kNowhere;
   search.budget = parts_of(budget.work);
-  search.charged = 0;
-  search.triangle_low = hint.triangle_low;
-  search.band2_m2 = band2_m2 <= FLT_MAX ? band2_m2 : FLT_MAX;
+  search.band2_m2 = math::smaller(band2_m2, FLT_MAX);
   search.safe_subtree_margin_m = safe_subtree_margin_m;
   search.safe_subtree = safe_subtree;
   search.safe_subtree_m = query::left_of(hint.safe_subtree_m, moved_m);
   search.slack_m2 = Nearer::slack_m2(loss.longest_edge_m);
-  if (!is_warm) {  // a stored vertex is a point of the surface before any triangle is reached
+  // After a jump farther than the band the last leaf does not help.
+  if (!(safe_subtree_margin_m > budget.band_m) && is_slot(mesh, slot)) {
+    search.start = slot;
+  } else {  // a stored vertex is a point of the surface before any triangle is reached
+    search.start = query::kNowhere;
     search.best.offset_m = p_m - mesh.vertex(mesh.triangle(0).corner[0]);
     search.best.distance2_m2 = dot(search.best.offset_m, search.best.offset_m);
   }
-  finder.template find<Bound::kCompensated>(bound, search);
+  Found found;
+  found.complete = finder.template find<Bound::kCompensated>(bound, search);
   const float plain_m = nearest_m(search);
   const float plain_loss_m = loss.reported_m(plain_m);
-  weigh(found,
+  const float loss_m = plain_loss_m + loss.rounding_m;
+  weigh(search,
         Bound::kCompensated ? less_m(plain_m, loss.compensated_m(plain_m) + loss.rounding_m)
-                            : plain_m - (plain_loss_m + loss.rounding_m),
-        loss.rounding_m);
+                            : plain_m - loss_m,
+        loss.rounding_m, found);
   const float diagonal_m = mesh.head().diagonal_m;
-  const float scale_m = plain_m > diagonal_m ? plain_m : diagonal_m;
   const bool is_near = search.best.distance2_m2 <= search.band2_m2;
-  const float promise_m = kPromise * scale_m;
-  if (!Bound::kCompensated && is_near && !(2.0f * (plain_loss_m + loss.rounding_m) <= promise_m) &&
-      !is_decided(budget.threshold_m, plain_loss_m + loss.rounding_m, found) &&
-      !measure_again(mesh, p_m, promise_m, found)) {
-    Nearest before;
-    const bool has_budget = begin_again(mesh, parts_of(budget.work), found, before);
-    if (has_budget) finder.template find<true>(bound, search);
-    end_again(mesh, p_m, before, has_budget, found);
+  const float promise_m = kPromise * math::larger(plain_m, diagonal_m);
+  bool exact = false;
+  if (is_near) {
+    if (!Bound::kCompensated && !(2.0f * loss_m <= promise_m))
+      found = refined(mesh, finder, bound, parts_of(budget.work), budget.threshold_m, promise_m,
+                      loss_m, search, found);
+    exact = found.complete;
   }
 
   const Best& best = search.best;
@@ -288,7 +282,6 @@ template <class Finder, class Bound>
   const Vec3 direction = finder.direction(best);
   // The carried bound may be higher only if the search was cut short.
   float lower_m = found.lower_m;
-  bool exact = search.complete && is_near;
   if (!exact) {
     const float carried_m = query::left_of(hint.lower_m, moved_m);
     if (carried_m > lower_m) lower_m = carried_m;
@@ -298,19 +291,20 @@ template <class Finder, class Bound>
     if (bound.is_outside())
       sign = 1;
     else if (exact)
-      sign = sign_of(finder, found, direction, plain_loss_m, diagonal_m);
+      sign = sign_of(finder, best.offset_m, found.distance_m, direction, plain_loss_m, diagonal_m);
     if (sign == 0) {  // the last sign, if the path stayed within certified free distance
       if (query::left_of(hint.lower_m, moved_m) > 0.0f) sign = hint.sign;
       exact = exact && sign != 0;
     }
   }
   leave_hint(search, lower_m, lower_m > kEitherSide * diagonal_m ? sign : int8_t{0}, hint);
-  return {sign < 0 ? -found.distance_m : found.distance_m,
-          {point_m.x, point_m.y, point_m.z},
-          {direction.x, direction.y, direction.z},
-          best.triangle,
-          best.feature,
-          {lower_m, search.steps, exact, sign, units_of(search, budget.work)}};
+  return {
+      sign < 0 ? -found.distance_m : found.distance_m,
+      {point_m.x, point_m.y, point_m.z},
+      {direction.x, direction.y, direction.z},
+      best.triangle,
+      best.feature,
+      {lower_m, search.parts - search.charged, exact, sign, units_of(search.parts, budget.work)}};
 }
 
 // So far away that every vertex is as near as any other to 4e-8: no square of such a distance fits
@@ -346,13 +340,15 @@ Closest answer_nothing(const View& mesh, Hint& hint) {
   return closest;
 }
 
-// Outside the grid; `framed_m`: p_m in its frame. Rare, so for size.
+// Outside the grid, or nowhere. Rare, so for size.
 template <class Finder>
-[[gnu::noinline, gnu::cold]] Closest answer_far(const View& mesh, const Finder& finder,
-                                                Vec3 framed_m, Vec3 p_m, query::Budget budget,
-                                                Hint& hint) {
+[[gnu::noinline, gnu::cold]] Closest answer_far(const View& mesh, Finder finder, Vec3 p_m,
+                                                query::Budget budget, Hint& hint) {
+  if (!math::is_finite(p_m)) return answer_nothing(mesh, hint);
+  if (!(math::dot(p_m * (1.0f / kBeyond_m), p_m * (1.0f / kBeyond_m)) <= 1.0f))
+    return answer_beyond(mesh, p_m, hint);
   FarBound bound;
-  bound.begin(mesh.head(), framed_m);
+  bound.begin(mesh.head(), in_box_frame(mesh, p_m));
   return answer(mesh, finder, bound, p_m, budget, hint);
 }
 
@@ -361,13 +357,9 @@ template <class Finder>
 [[gnu::always_inline]] inline Closest closest_by(const View& mesh, const Finder& finder, Vec3 p_m,
                                                  query::Budget budget, Hint& hint) {
   NearBound near_bound;
-  const Vec3 framed_m = in_box_frame(mesh, p_m);
-  if (near_bound.begin(mesh.head(), framed_m))
+  if (near_bound.begin(mesh.head(), in_box_frame(mesh, p_m)))
     return answer(mesh, finder, near_bound, p_m, budget, hint);
-  if (!math::is_finite(p_m)) return answer_nothing(mesh, hint);
-  if (!(math::dot(p_m * (1.0f / kBeyond_m), p_m * (1.0f / kBeyond_m)) <= 1.0f))
-    return answer_beyond(mesh, p_m, hint);
-  return answer_far(mesh, finder, framed_m, p_m, budget, hint);
+  return answer_far(mesh, finder, p_m, budget, hint);
 }
 
 }  // namespace

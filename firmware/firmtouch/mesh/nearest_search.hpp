@@ -19,15 +19,13 @@ using math::Vec3;
 struct Search : Sought {
   uint32_t start;               // a leaf's slot, or kNowhere
   uint32_t budget;              // in parts of work units
-  uint32_t triangle_low;        // Hint::triangle_low; the wide search reads it
   float band2_m2;               // triangles farther away need not be found
   float safe_subtree_margin_m;  // margin of a new safe subtree beyond the first leaf
   uint32_t safe_subtree;        // in: the last one; all triangles outside it are at least ...
   float safe_subtree_m;         // ... this far away; out: the same, renewed
-  uint32_t steps;
-  uint32_t charged;  // parts beyond the visits
-  bool complete;     // no nearer triangle can be left
-  float pending_m;   // if not complete: certified distance to all that was not visited
+  uint32_t parts;               // taken of the budget
+  uint32_t charged;             // of these, beyond the visits
+  float pending_m;              // if not complete: certified distance to all that was not visited
   math::HalfCellPoint half_cells;  // of p_m; for the boxes of leaves alone
   const uint32_t* leaf_boxes;
 
@@ -58,8 +56,7 @@ constexpr uint32_t parts_of(uint32_t units) {
   return units <= kBeginUnits ? 1 : (units - kBeginUnits) * kPartsOfUnit;
 }
 // Units that a search took, at most those allowed.
-inline uint32_t units_of(const Search& search, uint32_t allowed) {
-  const uint32_t parts = search.steps + search.charged;
+inline uint32_t units_of(uint32_t parts, uint32_t allowed) {
   const uint32_t units = kBeginUnits + (parts + kPartsOfUnit - 1) / kPartsOfUnit;
   return units < allowed ? units : allowed;
 }
@@ -295,7 +292,7 @@ template <class Bound>
 // first, pushing the sibling boxes. noinline: with its caller's values the loop's do not stay in
 // registers. `Index`: of the triangles; void if compensated.
 template <bool kCompensated, class Bound, class Index>
-[[gnu::noinline]] void search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
+[[gnu::noinline]] bool search_nearest(const View& mesh, const Bound& bound_at, Search& search) {
   const Bound bound = bound_at;  // in registers
   const Side* const sides = mesh.sides();
   const uint32_t allowed = search.budget;
@@ -303,26 +300,26 @@ template <bool kCompensated, class Bound, class Index>
   Pending* top = pending;  // behind the last
   const Pending* best_first = pending;
   uint32_t left = allowed, slot = query::kNowhere, child = 0, prune;
-  search.complete = true;
   if constexpr (!kCompensated) begin_leaves<Index>(mesh, bound, search);
   if (search.start != query::kNowhere) {
     const uint32_t last = sides[search.start].child;
+    search.charged = 0;
     charge_leaf<kCompensated>(last, left, search);
     --left;
     measure<kCompensated, Index, Which::kLast>(mesh, 0, last, search.start, search);
     prune = prune_key(bound, search);
     if (!ascend(mesh, mesh.sides(), bound, prune, left, top, search)) {
-      search.complete = false;
-      search.steps = allowed - search.charged;
+      search.parts = allowed;
       search.pending_m = 0.0f;
-      return;
+      return false;
     }
     if (!take_last(top, best_first, prune, slot)) {
-      search.steps = allowed - left - search.charged;
-      return;
+      search.parts = allowed - left;
+      return true;
     }
     child = sides[slot].child;
   } else {
+    search.charged = 0;
     prune = prune_key(bound, search);
     // Without a budget no lower bound is needed on the way.
     if (allowed != UINT32_MAX) best_first += kBestFirst;
@@ -342,8 +339,8 @@ template <bool kCompensated, class Bound, class Index>
       if (count != 0)
         taken = take_smallest(sides, bound_at, pending, count, prune, left - 1, search.charged);
       if (!taken.found) {
-        search.steps = allowed - taken.left - search.charged;
-        return;
+        search.parts = allowed - taken.left;
+        return true;
       }
       slot = taken.slot;
       top = pending + taken.count;
@@ -352,11 +349,11 @@ template <bool kCompensated, class Bound, class Index>
     child = sides[slot].child;
   }
   // The budget ran out before the next box, which counts as pending too.
-  search.complete = false;
-  search.steps = allowed - search.charged;
+  search.parts = allowed;
   uint32_t least = bound.key(sides[slot].box);
   for (const Pending* p = pending; p != top; ++p) least = p->key < least ? p->key : least;
   search.pending_m = bound.distance_m(least);
+  return false;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr float kMaxMotion_m = 0x1p100f;
 /// What is left of a certified radius after a motion, rounded down; 0 where nothing is.
 static inline float left_of(float radius_m, float motion_m) {
   const float left_m = (radius_m - motion_m) * (1.0f - 4.0f * 0x1p-24f) - 0x1p-120f;
-  return left_m > 0.0f ? left_m : 0.0f;
+  return math::larger(left_m, 0.0f);
 }
 
 }  // namespace firmtouch::query

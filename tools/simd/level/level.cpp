@@ -21,11 +21,12 @@ namespace {
 struct WideFinder {
   const View& mesh;
   const WideTree& tree;
+  uint32_t triangle_low;  // mesh::Hint::triangle_low
 
   template <bool kCompensated, class Bound>
-  void find(const Bound& bound, Search& search) const {
+  bool find(const Bound& bound, Search& search) const {
     if constexpr (kCompensated) {
-      mesh::search_nearest<true, Bound, void>(mesh, bound, search);
+      return mesh::search_nearest<true, Bound, void>(mesh, bound, search);
     } else {
       if (mesh.leaf_boxes() != nullptr && mesh.has_rivals())
         return mesh::search_nearest<false, Bound, mesh::WithRivals>(mesh, bound, search);
@@ -48,17 +49,20 @@ struct WideFinder {
 
  private:
   template <bool kRivals, class Bound>
-  void find_unlimited(const Bound& bound, Search& search) const {
-    if (search.start == query::kNowhere) return search_cold<kRivals>(mesh, tree, bound, search);
-    return search_warm<kRivals>(mesh, tree, bound, search);
+  bool find_unlimited(const Bound& bound, Search& search) const {
+    search.charged = 0;
+    search.parts = search.start == query::kNowhere
+                       ? search_cold<kRivals>(mesh, tree, bound, search)
+                       : search_warm<kRivals>(mesh, tree, bound, triangle_low, search);
+    return true;
   }
   template <class Bound>
-  void find_within_budget(const Bound& bound, Search& search) const {
+  bool find_within_budget(const Bound& bound, Search& search) const {
     if (mesh.has_rivals())
       return mesh::search_nearest<false, Bound, mesh::WithRivals>(mesh, bound, search);
     if (!mesh.triangles16().empty())
       return mesh::search_nearest<false, Bound, uint16_t>(mesh, bound, search);
-    mesh::search_nearest<false, Bound, uint32_t>(mesh, bound, search);
+    return mesh::search_nearest<false, Bound, uint32_t>(mesh, bound, search);
   }
 };
 
@@ -71,9 +75,10 @@ const Type& as(const void* object) {
 void closest_point(const void* mesh, const void* tree, const float* p_m, const void* budget,
                    void* hint, void* closest) {
   const View& view = as<View>(mesh);
+  mesh::Hint& last = *static_cast<mesh::Hint*>(hint);
+  const WideFinder finder{view, as<WideTree>(tree), last.triangle_low};
   new (closest)
-      mesh::Closest(mesh::closest_by(view, WideFinder{view, as<WideTree>(tree)}, vector(p_m),
-                                     as<query::Budget>(budget), *static_cast<mesh::Hint*>(hint)));
+      mesh::Closest(mesh::closest_by(view, finder, vector(p_m), as<query::Budget>(budget), last));
 }
 
 template <class Visitor>

@@ -80,12 +80,12 @@ inline uint32_t take_block_of(const WideTree& tree, const Feet& feet, const Node
 /// same visits. Instead of waiting for the nearer of two children it measures the boxes in both,
 /// and selects by conditional moves. The keys in an entry are those of its node's sides. A block is
 /// measured at once.
-/// Pre: search.start == kNowhere; search.budget is not reached.
+/// Pre: search.start == kNowhere; search.budget is not reached. Result: visits.
 template <bool kRivals>
-[[gnu::noinline, gnu::flatten, maybe_unused]] void search_cold(const View& mesh,
-                                                               const WideTree& tree,
-                                                               const NearBound& bound_at,
-                                                               Search& search) {
+[[gnu::noinline, gnu::flatten, maybe_unused]] uint32_t search_cold(const View& mesh,
+                                                                   const WideTree& tree,
+                                                                   const NearBound& bound_at,
+                                                                   Search& search) {
   const NearBound bound = bound_at;
   const Node* const children = tree.children;
   const auto sibling_keys = [&](uint64_t node, uint64_t& a_keys, uint64_t& b_keys) {
@@ -104,7 +104,6 @@ template <bool kRivals>
   uint64_t again;
   const uint32_t* const boxes = children[root].side[0].box;
   sibling_distances2(boxes, boxes, bound.point, now.keys, again);
-  search.complete = true;
   if constexpr (kRivals) search.begin_rivals(mesh.head());
   uint32_t steps = 1;
   while (true) {
@@ -123,7 +122,7 @@ template <bool kRivals>
     }
     while (true) {  // until an inner node is next
       if (now.key > cutoff) {
-        if (now.key == UINT64_MAX) return void(search.steps = steps);
+        if (now.key == UINT64_MAX) return steps;
         now = *top--;
         steps += now.key <= cutoff ? 1 : 0;
         continue;
@@ -220,12 +219,13 @@ inline void ascend(const View& mesh, const Side* sides, const NearBound& bound, 
 
 /// mesh::search_nearest() of a warm query without budget: the same nodes in the same order, the
 /// same visits. Usually the prisms of a block already exclude all of its triangles.
-/// Pre: search.start != kNowhere; search.budget is not reached.
+/// Pre: search.start != kNowhere; search.budget is not reached. Result: visits.
 template <bool kRivals>
-[[gnu::noinline, gnu::flatten, maybe_unused]] void search_warm(const View& mesh,
-                                                               const WideTree& tree,
-                                                               const NearBound& bound_at,
-                                                               Search& search) {
+[[gnu::noinline, gnu::flatten, maybe_unused]] uint32_t search_warm(const View& mesh,
+                                                                   const WideTree& tree,
+                                                                   const NearBound& bound_at,
+                                                                   uint32_t triangle_low,
+                                                                   Search& search) {
   const NearBound bound = bound_at;  // in registers
   const Side* const sides = tree.block_nodes->side;
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
@@ -237,7 +237,7 @@ template <bool kRivals>
     search.begin_rivals(mesh.head());
     take_leaf_rivals(last, p_m, search.start, search);
   } else {
-    clear = measure_last_leaf(last, p_m, search.start, search.triangle_low, slack_m2, best);
+    clear = measure_last_leaf(last, p_m, search.start, triangle_low, slack_m2, best);
   }
   uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, slot;
   float limit2_m2 = prism_limit2(limit_of<kRivals>(search), slack_m2);
@@ -275,8 +275,7 @@ template <bool kRivals>
     }
     limit2_m2 = prism_limit2(limit_of<kRivals>(search), slack_m2);
   }
-  search.complete = true;
-  search.steps = UINT32_MAX - left;
+  return UINT32_MAX - left;
 }
 
 }  // namespace
