@@ -33,7 +33,7 @@ constexpr float kVanishing_m = 0x1p-58f;  // squares of less may underflow
 static inline float rounded_down(float distance_m, float half_m, bool compensated) {
   const float near_m = 10.5f * kUnit * half_m;
   const float far_m = 5.6f * kUnit * distance_m + 3.3f * kUnit * half_m;
-  const float lost_m = compensated ? 4.1f * kUnit * distance_m : near_m > far_m ? near_m : far_m;
+  const float lost_m = compensated ? 4.1f * kUnit * distance_m : math::larger(near_m, far_m);
   return distance_m - (lost_m + kVanishing_m);
 }
 

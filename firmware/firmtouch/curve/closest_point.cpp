@@ -28,7 +28,7 @@ float spacing_m(const View& curve) {
   Closest closest = answer_at(curve, best);
   float lower_m = rounded_down(closest.distance_m, curve.head().longest_half_m, compensated);
   if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
-  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  closest.certificate.lower_m = math::larger(lower_m, 0.0f);
   closest.certificate.steps = traversal.steps;
   closest.certificate.work = traversal.work;
   closest.certificate.exact = traversal.complete;

@@ -223,7 +223,7 @@ bool min_cost_beside(const View& curve, math::Vec3 p_m, const ArcPenalty& penalt
   const float lost_m =
       closest.distance_m - rounded_down(closest.distance_m, head.longest_half_m, false);
   const float lower_m = rounded_down(head, found, penalty.weight_m, lost_m);
-  closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  closest.certificate.lower_m = math::larger(lower_m, 0.0f);
   return true;
 }
 
@@ -255,7 +255,7 @@ Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty
              penalty.weight_m * (2.0f + 0x1p-18f) * half_m / head.length_m;
   float lower_m = rounded_down(head, found, penalty.weight_m, lost_m);
   if (!traversal.complete && traversal.pending_m < lower_m) lower_m = traversal.pending_m;
-  found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  found.closest.certificate.lower_m = math::larger(lower_m, 0.0f);
   found.closest.certificate.steps = traversal.steps;
   found.closest.certificate.work = traversal.work;
   found.closest.certificate.exact =

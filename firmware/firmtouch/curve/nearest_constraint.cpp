@@ -182,7 +182,7 @@ Constraint nearest_constraint(const View& curve, Vec3 p_m, const ArcPenalty& pen
   // Nor is any point farther than a reach from the sample that it is nearest to.
   const float left_out_m = nearest_m * (1.0f - 0x1p-20f) - reach_m;
   if (choice.is_cut && left_out_m < lower_m) lower_m = left_out_m;
-  found.closest.certificate.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  found.closest.certificate.lower_m = math::larger(lower_m, 0.0f);
   found.closest.certificate.steps = search.steps();
   const uint32_t used = searched + choice.charged();
   found.closest.certificate.work = used < budget.work ? used : budget.work;

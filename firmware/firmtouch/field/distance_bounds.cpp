@@ -24,7 +24,7 @@ uint32_t cell_on_axis(float cells, uint32_t count) {
 float beside(float low, float high, float x) {
   const float below = low - x, above = x - high;
   const float gap = below > above ? below : above;
-  return gap > 0.0f ? gap : 0.0f;
+  return math::larger(gap, 0.0f);
 }
 
 }  // namespace

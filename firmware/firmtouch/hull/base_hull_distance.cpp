@@ -117,7 +117,7 @@ BaseHullDistance base_hull_distance(const BaseHull& base_hull, Vec3 p_m, query::
     const float least2 = rest2 < nearest.distance2_m2 ? rest2 : nearest.distance2_m2;
     const float reported_m = least2 < FLT_MAX ? math::square_root(least2) : kBeyond_m;
     const float lower_m = reported_m - loss_m(reported_m, diagonal_m);
-    result.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+    result.lower_m = math::larger(lower_m, 0.0f);
   }
   return result;
 }

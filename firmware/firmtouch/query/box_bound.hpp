@@ -64,7 +64,7 @@ struct FarBoxBound {
     const float below_m = static_cast<float>(low_of(axis)) * cell_m - x;
     const float above_m = x - static_cast<float>(high_of(axis)) * cell_m;
     const float outside = below_m > above_m ? below_m : above_m;
-    return outside > 0.0f ? outside : 0.0f;
+    return math::larger(outside, 0.0f);
   }
   /// Out of line: far away a search is rare and short.
   [[gnu::noinline, gnu::cold]] uint32_t key(const uint32_t* box) const {

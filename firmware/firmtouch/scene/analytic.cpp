@@ -14,7 +14,7 @@ Near answer(float signed_m, Vec3 outward, float scale_m) {
   Near near;
   near.distance_m = signed_m < 0.0f ? -signed_m : signed_m;
   const float lower_m = near.distance_m - kRounding * (near.distance_m + scale_m);
-  near.lower_m = lower_m > 0.0f ? lower_m : 0.0f;
+  near.lower_m = math::larger(lower_m, 0.0f);
   near.sign = signed_m > 0.0f ? 1 : signed_m < 0.0f ? -1 : 0;
   near.outward = outward;
   near.has_inside = true;

@@ -147,7 +147,7 @@ void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, G
 
 }  // namespace
 
-float positive(float value) { return value > 0.0f ? value : 0.0f; }
+float positive(float value) { return math::larger(value, 0.0f); }
 
 float release_distance_m(const Guide& guide) {
   const float farther_m = guide.release_m >= guide.snap_m ? guide.release_m : guide.snap_m;

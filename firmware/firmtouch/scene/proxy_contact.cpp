@@ -96,7 +96,7 @@ void end_proxy_contact(const ProxyContact& contact, const ProxyMoved& moved, Pro
   spring.is_held = proxy.is_loaded;
   spring.anchor_m = proxy.position_m;
   const float reach_m = proxy.free_m - proxy.radius_m;
-  spring.reach_m = reach_m > 0.0f ? reach_m : 0.0f;
+  spring.reach_m = math::larger(reach_m, 0.0f);
   spring.stiffness_N_per_m = touch.material.stiffness_N_per_m;
   spring.damping_N_s_per_m = touch.material.damping_N_s_per_m;
   if (!(model.free_radius_m <= proxy.free_m)) model.free_radius_m = proxy.free_m;

@@ -35,7 +35,7 @@ float outside_m(const Head& head, Vec3 p_m) {
     size_m += head.high_m[k] - head.low_m[k];
   }
   const float off_m = math::square_root(sum_m2) * (1.0f - 0x1p-20f) - size_m * 0x1p-20f;
-  return off_m > 0.0f ? off_m : 0.0f;
+  return math::larger(off_m, 0.0f);
 }
 
 Closest answer_at(const View& model, const Best& best, uint32_t piece_index, Vec3 direction,

@@ -148,8 +148,8 @@ bool GuideNodes::is_side_done(const Expansion& f, float distance_m, float side, 
   }
   const float product = m0 * m1, square = m1 * m1, both = 2.0f * m0 * m2;
   const float cubic = 2.0f * m1 * m2 * length, fourth = m2 * m2 * length * length;
-  const float taken = square + fourth + (cubic > 0.0f ? cubic : 0.0f) + both;
-  const float size = square + fourth + (cubic > 0.0f ? cubic : 0.0f) + (both < 0.0f ? -both : both);
+  const float taken = square + fourth + math::larger(cubic, 0.0f) + both;
+  const float size = square + fourth + math::larger(cubic, 0.0f) + (both < 0.0f ? -both : both);
   const float b = side * f.slope - f.slope_noise - product -
                   8.0f * kUnit * (product < 0.0f ? -product : product);
   const float q = f.bend_over(side, length) - taken - 16.0f * kUnit * size;

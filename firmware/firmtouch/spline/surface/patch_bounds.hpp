@@ -91,7 +91,7 @@ class PatchBounds {
   }
   static float beyond(float along, float half) {
     const float off = __builtin_fabsf(along) - half;
-    return off > 0.0f ? off : 0.0f;
+    return math::larger(off, 0.0f);
   }
 
   const Piece* pieces_;
