@@ -2,10 +2,11 @@
 // it against a rising force, until it clicks into the next.
 // Picture: pictures/detent_ring.svg
 //
-// An effect of your own is a free function that adds to the local model: here a line through the
-// nearest notch, across which a spring pulls. Along the line, in and out, the tool is free.
+// The notches are an effect of the library. A sum holds the effects of a tick within the limit of
+// force, and passive: here one alone, and no contact.
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/scene/compose.hpp"
+#include "firmtouch/scene/effect_sum.hpp"
 #include "firmtouch/servo/step.hpp"
 #include "hand.hpp"
 
@@ -13,30 +14,22 @@ using namespace firmtouch;
 
 namespace {
 
-constexpr uint32_t kNotches = 12;
 constexpr float kTurn_rad = 6.2831853f;
-constexpr float kPitch_rad = kTurn_rad / kNotches;
-constexpr float kStiffness_N_per_m = 300.0f;
 constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f, /*slew_limit_N_per_s*/ 5000.0f,
                                     /*ramp_in_s*/ 0.02f, /*tick_period_s*/ 0.001f};
+constexpr scene::DetentRing kRing{
+    /*centre_m*/ {}, /*axis*/ {0, 0, 1}, /*notch*/ {1, 0, 0},
+    /*count*/ 12,    /*core_m*/ 0.001f,  /*limit_N*/ 2.3f};
 
-// The effect.
-void add_detents(math::Vec3 position_m, servo::LocalModel& model) {
-  const float angle_rad = math::arc_tangent2(position_m.y, position_m.x) + kTurn_rad;
-  const uint32_t notch = static_cast<uint32_t>(angle_rad / kPitch_rad + 0.5f);
-  const float notch_rad = kPitch_rad * static_cast<float>(notch);
-  servo::GuideLine line;  // from the centre of the ring outwards
-  line.direction = {math::cosine(notch_rad), math::sine(notch_rad), 0};
-  line.stiffness_N_per_m = kStiffness_N_per_m;
-  scene::add_guide(model, line);
-}
-
+scene::EffectStore detents;
 servo::State state;
 
 math::Vec3 tick(uint32_t number, math::Vec3 position_m) {
   servo::LocalModel model;
   scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
-  add_detents(position_m, model);
+  scene::EffectSum sum(kSettings.force_limit_N, /*contact_N*/ {});
+  sum.add(scene::detents_at(kRing, position_m), detents);
+  sum.put(position_m, model);
   servo::StepInput input;
   input.position_m = position_m;
   input.tick = number;
@@ -63,9 +56,9 @@ int main() {
     if (onward_N > strongest_N) strongest_N = onward_N;
     last_N = onward_N;
   }
-  // Half a pitch away from a notch: 300 N/m * 30 mm * sin 15 degrees, across the line.
-  const float expected_N = kStiffness_N_per_m * 0.03f * math::sine(kPitch_rad / 2);
-  is_right &= clicks == 2 * kNotches;
-  is_right &= strongest_N > 0.95f * 0.966f * expected_N && strongest_N < 1.01f * expected_N;
+  // A quarter of a pitch beyond the ridge it draws with all its force, which the core takes from.
+  const float expected_N = kRing.limit_N * (1 - 0.5f * kRing.core_m / 0.03f);
+  is_right &= clicks == 2 * kRing.count;
+  is_right &= is_near(strongest_N, expected_N, 1e-3f);
   return is_right ? 0 : 1;
 }

@@ -2,9 +2,10 @@
 // slow, and slower with depth. Let go, and it stays where it is.
 // Picture: pictures/own_effect.svg
 //
-// An effect of your own is a free function that adds to the local model. Honey resists in all
-// directions, so this one is a guide line without a spring: a damper across it, and one along it.
+// An effect of your own is a free function that adds to the local model. This one is the
+// library's viscosity, thicker with depth.
 #include "firmtouch/scene/compose.hpp"
+#include "firmtouch/scene/effect_sum.hpp"
 #include "firmtouch/servo/step.hpp"
 #include "hand.hpp"
 
@@ -19,17 +20,14 @@ constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f, /*slew_limit_N_per_s
                                     /*ramp_in_s*/ 0.0f, /*tick_period_s*/ 0.001f};
 
 // The effect.
-void add_honey(math::Vec3 position_m, servo::LocalModel& model) {
+void add_honey(math::Vec3 position_m, math::Vec3 velocity_mps, servo::LocalModel& model) {
   const float depth_m = kSurface_m - position_m.z;
   if (!(depth_m > 0)) return;
   const float thick = kPerDepth_N_s_per_m2 * depth_m;
-  servo::GuideLine line;
-  line.point_m = position_m;
-  line.direction = {1, 0, 0};  // any: both dampers are the same
-  line.damping_N_s_per_m = thick < kMaxDamping_N_s_per_m ? thick : kMaxDamping_N_s_per_m;
-  line.drive_damping_N_s_per_m = line.damping_N_s_per_m;
-  line.drive_limit_N = kSettings.force_limit_N;
-  scene::add_guide(model, line);
+  const float damping_N_s_per_m = thick < kMaxDamping_N_s_per_m ? thick : kMaxDamping_N_s_per_m;
+  scene::EffectSum sum(kSettings.force_limit_N, /*contact_N*/ {});
+  sum.add(scene::viscous_N({damping_N_s_per_m, kSettings.force_limit_N}, velocity_mps));
+  sum.put(position_m, model);
 }
 
 servo::State state;
@@ -37,7 +35,7 @@ servo::State state;
 math::Vec3 tick(uint32_t number, math::Vec3 position_m, math::Vec3 velocity_mps) {
   servo::LocalModel model;
   scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
-  add_honey(position_m, model);
+  add_honey(position_m, velocity_mps, model);
   servo::StepInput input;
   input.position_m = position_m;
   input.velocity_mps = velocity_mps;

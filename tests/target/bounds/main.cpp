@@ -18,6 +18,7 @@ int main() {
   target::measure_math();
   target::measure_mesh();
   target::measure_scene();
+  target::measure_effects();
   target::measure_touch();
   hal::board_print("complete\n");
   return 0;

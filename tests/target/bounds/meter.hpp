@@ -45,6 +45,7 @@ inline void print_figure(const char* header, const Worst& worst) {
   hal::board_print("\n");
 }
 
+void measure_effects();
 void measure_math();
 void measure_mesh();
 void measure_scene();

@@ -3,7 +3,6 @@
 #include "firmtouch/curve/guided_point.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
-#include "firmtouch/scene/effects.hpp"
 #include "firmtouch/scene/guide_step.hpp"
 #include "firmtouch/scene/mesh_contact.hpp"
 #include "firmtouch/scene/object.hpp"
@@ -150,21 +149,6 @@ void measure_textures() {
   print_figure("scene/relief.hpp", bounds);
 }
 
-void measure_vibration() {
-  Random random(14);
-  Worst worst;
-  scene::Vibration vibration;
-  float force_N = 0;
-  for (uint32_t i = 0; i < kTicks; ++i) {
-    vibration = {{1, 0, 0}, 1, 0.25f + 0.24f * random.sign(), 0, random.below(100), 0, 100};
-    vibration.hold_ticks = random.below(1000);
-    const uint32_t tick = random.below(1200);
-    worst.of([&] { force_N = scene::vibration_N(vibration, tick); });
-    asm volatile("" ::"r"(&force_N) : "memory");
-  }
-  print_figure("scene/effects.hpp", worst);
-}
-
 void measure_stored() {
   alignas(16) static scene::ObjectLayout objects[scene::kMaxObjects];
   for (uint32_t i = 0; i < scene::kMaxObjects; ++i) {
@@ -211,7 +195,6 @@ void measure_scene() {
   measure_spline_contact();
   measure_curve_guide();
   measure_textures();
-  measure_vibration();
   measure_stored();
 }
 
