@@ -87,3 +87,13 @@ BenchTouchRunsAsManyTicksAsItIsGiven() {
   exits 0
   printf '%s\n' "$out" | grep -qE 'solution +torus .*goal >= 95' || fail "$out"
 }
+
+BenchTouchReleaseRunsOnlyHandsThatLeave() {
+  box >box.obj
+  f bench touch box.obj --release
+  exits 0
+  same "$err" ''
+  printf '%s\n' "$out" | grep -qE 'leaving hand is let go, or a fault .* of 1500 contacts longer' || fail "$out"
+  printf '%s\n' "$out" | grep -qE 'leaving hand is let go, hull of .* of 1500 contacts longer' || fail "$out"
+  ! printf '%s\n' "$out" | grep -q 'moves that cross' || fail "$out"
+}
