@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/texture_pull.hpp"
 
 namespace firmtouch::scene {
 namespace {
@@ -89,19 +90,6 @@ void change_texture(const StoredMaterials& materials, math::Vec3 x_m, float shar
   if (!(state.texture_share > 0.0f)) state.texture_share = 0.0f, state.textured = state.material;
   cut = cut_of(materials, state, x_m);
   state.law.slack_m += before_m - cut.depth_m;
-}
-
-// A spring that is stretched by `stretch_m` / |push|, of this force times `push`: without slack its
-// energy is the law's. In a trough there is none.
-void pull_along(math::Vec3 push, float force_N, float stretch_m, math::Vec3 position_m,
-                servo::ProxySpring& spring) {
-  if (!(force_N > 0.0f)) {
-    spring.stiffness_N_per_m = spring.damping_N_s_per_m = 0;
-    return;
-  }
-  const float square = math::dot(push, push);
-  spring.stiffness_N_per_m = force_N / stretch_m * square;
-  spring.anchor_m = position_m + push * (stretch_m / square);
 }
 
 }  // namespace

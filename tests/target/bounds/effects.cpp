@@ -3,6 +3,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/scene/effect_sum.hpp"
+#include "firmtouch/scene/textured.hpp"
 #include "firmtouch/servo/force_parts.hpp"
 #include "target/bounds/meter.hpp"
 #include "target/random.hpp"
@@ -90,8 +91,29 @@ void measure_effect_sum() {
   damper.take(stored.taken);
   const Worst* const sums[] = {&begin, &damper, &put};
   for (const Worst* worst : sums) print_figure("scene/effect_sum.hpp", *worst);
+#include "firmtouch/scene/textured.hpp"
   print_figure("servo/force_parts.hpp", contact);
   print_figure("servo/force_parts.hpp", guide);
+}
+
+void measure_textured() {
+  Random random(17);
+  Worst worst;
+  scene::ProxyTouch touch;
+  touch.proxy.is_loaded = true;
+  scene::TexturedTouch state;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    scene::ProxyContact contact;
+    contact.position_m = random.cube() * 0.001f;
+    touch.penetration_m = math::length(contact.position_m);
+    const scene::Cut cut{random.sign() > 0 ? 1e-4f : 1e-3f, random.cube() * 0.4f};
+    servo::LocalModel model;
+    model.spring.is_used = true;
+    model.spring.stiffness_N_per_m = 1000;
+    worst.of([&] { scene::end_texture(contact, cut, {}, touch, state, model); });
+    asm volatile("" ::"r"(&model), "r"(&state) : "memory");
+  }
+  print_figure("scene/textured.hpp", worst);
 }
 
 }  // namespace
@@ -100,6 +122,7 @@ void measure_effects() {
   measure_vibration();
   measure_passive_effects();
   measure_effect_sum();
+  measure_textured();
 }
 
 }  // namespace firmtouch::target

@@ -18,8 +18,8 @@ int main() {
   target::measure_math();
   target::measure_mesh();
   target::measure_scene();
-  target::measure_effects();
   target::measure_touch();
+  target::measure_effects();
   hal::board_print("complete\n");
   return 0;
 }
