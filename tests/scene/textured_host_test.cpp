@@ -195,7 +195,7 @@ TEST(Textured_BallAndSplines_HaveTheForceOfTheClosedForm) {
 
 TEST(Textured_ClosedLoops_GiveNoEnergy) {
   CHECK_LE(loops_of<Ball>(0, 30, 1e-6).most, 1e-5);
-  // A proxy on splines rounds by 1e-7 diagonals a tick; the texture adds nothing to that.
+  // Simpson's rule takes the small moves of a proxy on splines for work. The texture adds none.
   const double flat = loops_of<Torus>(0, 4, 2e-6, true).most;
   CHECK_LE(loops_of<Torus>(0, 4, 2e-6).most, flat + 1e-3);
   const Loops rough = loops_of<Ball>(0.3f, 30, 5e-6);
