@@ -310,3 +310,24 @@ TEST(EffectSum_HostileForces_LeaveASoundModel) {
     CHECK(store.stored_J >= 0 && store.stored_J <= 0.01f);
   }
 }
+
+TEST(EffectSum_VibrationBesideAGuide_HasItsForceAndTheGuideItsOwn) {
+  const scene::Vibration buzz{{0.6f, 0, -0.8f}, 1.5f, 0.2f, 0, 0, 100, 0};
+  for (uint32_t tick = 0; tick < 100; ++tick) {
+    servo::LocalModel model;
+    const Vec3 at_m{0.001f, 0.002f, 0.003f};
+    scene::begin_model(model, at_m, tick, 3);
+    servo::GuideLine line;
+    line.direction = {1, 0, 0};
+    line.stiffness_N_per_m = 300;
+    scene::add_guide(model, line);
+    const Vec3 guide_N = servo::guide_N(model, at_m, {});
+    const float buzz_N = scene::vibration_N(buzz, tick);
+    scene::EffectSum sum(8, {});
+    CHECK_EQ(sum.add(guide_N), 1.0f);
+    const float share = sum.add(buzz.direction, buzz_N);
+    CHECK(share >= 1 || buzz_N * buzz_N <= 0);
+    CHECK(sum.put(at_m, model));
+    CHECK_LE(size(servo::evaluate(model, at_m, {}) - guide_N - buzz.direction * buzz_N), 1e-6);
+  }
+}

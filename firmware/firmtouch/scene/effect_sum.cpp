@@ -43,6 +43,8 @@ float EffectSum::add(Vec3 force_N) {
   return share;
 }
 
+float EffectSum::add(Vec3 direction, float size_N) { return add(direction * size_N); }
+
 // With the share s, the potential U and the stored energy a <= U, the work that a way takes from
 // the hand is s dU. It is added to a, and s <= a / U. So a, which is never negative, pays all that
 // the force gives.

@@ -35,6 +35,9 @@ class EffectSum {
   /// Result: the share; 0 for NaN.
   float add(math::Vec3 force_N);
 
+  /// A force along a unit vector, such as vibration_N(): negative against it.
+  float add(math::Vec3 direction, float size_N);
+
   /// A force of a potential. A share that changes would give energy on closed loops: it also is at
   /// most what the hand has paid, stored_J over potential_J. Then the force is passive: in n ticks
   /// it gives at most the potential of its first tick and n 1e-6 J, by which a share that fell
