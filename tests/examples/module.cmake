@@ -37,6 +37,7 @@ firmtouch_example(two_objects LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(bar_tool LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_linkage LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(own_effect LINKS firmtouch::scene firmtouch::servo)
+firmtouch_example(many_effects LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(forbidden_region LINKS firmtouch::scene firmtouch::servo)
 firmtouch_example(teach_and_repeat LINKS firmtouch::scene firmtouch::servo)
 
