@@ -46,7 +46,10 @@ LinkageBody::LinkageBody(const LinkageDevice& device, const JointMotion& start)
     : device_(device), joints_(device.joints.joints), motion_(start) {
   moments_ = tools::moments_of(device_);
   elbows_ = moments_.size() / 2;
-  for (uint32_t k = 0; k < joints_; ++k) is_dry_ |= device_.masses.joint[k].coulomb_N_m > 0;
+  for (uint32_t k = 0; k < joints_; ++k) {
+    most_dry_Nm_[k] = device_.masses.joint[k].coulomb_N_m;
+    is_dry_ |= most_dry_Nm_[k] > 0;
+  }
   here_ = before_ = dynamics_of(motion_);
   book_.stored_J = book_.start_J = here_.stored_J;
   book_.weight_J = here_.weight_J;
@@ -119,25 +122,14 @@ void LinkageBody::accelerate(const Dynamics& at, const double (&load_Nm)[kJoints
                       at.inverse[k][2] * torque_Nm[2];
 }
 
-// The box-constrained torques after which a step of rates `free` leaves each joint at rest or
-// against its whole friction, by projected Gauss-Seidel. `old`: share of the step before.
+// `old`: share of the step before. `free`: rates after the step without friction.
 void LinkageBody::dry_torques(const double (&free)[kJoints], double old, double time_s,
-                              double (&dry_Nm)[kJoints]) const {
+                              double (&dry_Nm)[kJoints]) {
   double change[kJoints][kJoints];  // of the rates by each torque
   for (uint32_t k = 0; k < kJoints; ++k)
     for (uint32_t j = 0; j < kJoints; ++j)
       change[k][j] = time_s * ((1 + old) * here_.inverse[k][j] - old * before_.inverse[k][j]);
-  bool is_settled = false;
-  for (int sweep = 0; sweep < 40 && !is_settled; ++sweep) {
-    is_settled = true;
-    for (uint32_t k = 0; k < joints_; ++k) {
-      double rate = free[k];
-      for (uint32_t j = 0; j < joints_; ++j) rate -= change[k][j] * dry_Nm[j];
-      const double most_Nm = device_.masses.joint[k].coulomb_N_m, before_Nm = dry_Nm[k];
-      dry_Nm[k] = std::clamp(before_Nm + rate / change[k][k], -most_Nm, most_Nm);
-      is_settled &= std::fabs(dry_Nm[k] - before_Nm) <= 1e-12 * most_Nm;
-    }
-  }
+  dry_.torques(joints_, change, free, most_dry_Nm_, dry_Nm);
 }
 
 bool LinkageBody::is_sound(const JointMotion& motion, const Dynamics& dynamics) const {

@@ -1,5 +1,6 @@
 #pragma once
 #include "device/inertia.hpp"
+#include "host_sim/device/dry_friction.hpp"
 #include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
@@ -81,7 +82,7 @@ class LinkageBody {
   static void accelerate(const Dynamics& at, const double (&load_Nm)[kJoints],
                          const double (&motor_Nm)[kJoints], double (&acceleration)[kJoints]);
   void dry_torques(const double (&free)[kJoints], double old, double time_s,
-                   double (&dry_Nm)[kJoints]) const;
+                   double (&dry_Nm)[kJoints]);
   bool is_sound(const JointMotion& motion, const Dynamics& dynamics) const;
   void jam();
   enum class Step { kDone, kTooLong, kImpossible };  // only kDone moves it
@@ -91,6 +92,8 @@ class LinkageBody {
   uint32_t joints_;
   size_t elbows_ = 0;
   bool is_dry_ = false;  // has Coulomb friction
+  double most_dry_Nm_[kJoints] = {};
+  DryFriction dry_;
   std::vector<tools::RodMoments> moments_;
   JointMotion motion_;
   Dynamics here_, before_;  // of motion_, and of a step ago
