@@ -131,27 +131,21 @@ int print_regimes() {
 
 int print_estimators() {
   constexpr double kQuantum_m = 30e-6, kBar_N_per_m = 1.15 * 7286;
-  constexpr struct {
-    const char* name;
-    device::VelocitySettings settings;
-  } kEstimators[] = {{"0 difference", {device::Estimator::kDifference, 0}},
-                     {"1 low-pass, 150 Hz", {device::Estimator::kLowPass, 150}},
-                     {"2 tracking", {device::Estimator::kTracking, 0}}};
+  constexpr double kPeriod_s[] = {1e-3, .25e-3, .1e-3};
   const auto initial = static_cast<uint32_t>(params::kTable[params::kVelocityEstimator].initial);
   std::printf(
       "Stiffest wall at rest in N/m: 75 g, b 0.5 N s/m, B 5 N s/m, 30 um, pushed with 1 N\n"
       "estimator               1 kHz   4 kHz  10 kHz\n");
   double of_default = 0;
-  for (uint32_t i = 0; i < 3; ++i) {
+  for (uint32_t i = 0; i < bench::all_estimates(kQuantum_m, kPeriod_s[0]).size(); ++i) {
     double limit[3];
-    for (int k = 0; k < 3; ++k)
-      limit[k] = rest_limit_N_per_m({.075, .5,
-                                     k == 0   ? 1e-3
-                                     : k == 1 ? .25e-3
-                                              : .1e-3,
-                                     5},
-                                    kQuantum_m, kEstimators[i].settings);
-    std::printf("%-20s %8.0f %7.0f %7.0f%s\n", kEstimators[i].name, limit[0], limit[1], limit[2],
+    const char* name = nullptr;
+    for (int k = 0; k < 3; ++k) {
+      const bench::NamedEstimate one = bench::all_estimates(kQuantum_m, kPeriod_s[k])[i];
+      limit[k] = rest_limit_N_per_m({.075, .5, kPeriod_s[k], 5}, kQuantum_m, one);
+      name = one.name;
+    }
+    std::printf("%-22s %6.0f %7.0f %7.0f%s\n", name, limit[0], limit[1], limit[2],
                 i == initial ? "   default" : "");
     if (i == initial) of_default = limit[0];
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmtouch/device/cartesian.hpp"
 #include "host_sim/plant/device.hpp"
 
 namespace firmtouch::host_sim {
@@ -70,13 +71,13 @@ DeviceModel model_of(const SampledWall& wall, double quantum_m) {
 }
 
 // As trace/run.cpp does it: the hand's force is constant during a substep.
-void advance(Device& device, const SampledWall& wall, double push_N) {
+void advance(Device& device, const SampledWall& wall, double push_N, double time_s) {
   const bool is_held = wall.hand_stiffness_N_per_m > 0 || wall.hand_damping_N_s_per_m > 0;
   const int substeps = is_held ? 16 : 1;
   for (int i = 0; i < substeps; ++i) {
     const double hand_N = -wall.hand_stiffness_N_per_m * device.position_m().x -
                           wall.hand_damping_N_s_per_m * device.velocity_mps().x;
-    device.advance({push_N + hand_N, 0, 0}, wall.period_s / substeps);
+    device.advance({push_N + hand_N, 0, 0}, time_s / substeps);
   }
 }
 
@@ -92,26 +93,42 @@ bool decays(const SampledWall& wall, double stiffness) {
     if (i >= 3 * (ticks / 4)) second = std::fmax(second, std::fabs(x));
     device.command({-stiffness * x - wall.damping_N_s_per_m * (x - before) / wall.period_s, 0, 0});
     before = x;
-    advance(device, wall, 0);
+    advance(device, wall, 0, wall.period_s);
   }
   return second <= first;
 }
 
-bool comes_to_rest(const SampledWall& wall, double quantum_m,
-                   const device::VelocitySettings& velocity, double stiffness) {
+// The tick's motion once more, in parts, for the edges that it passes.
+void pass_edges(Device plant, const SampledWall& wall, double push_N,
+                bench::StampedEncoder& encoder) {
+  constexpr int kParts = 4;
+  for (int i = 0; i < kParts; ++i) {
+    advance(plant, wall, push_N, wall.period_s / kParts);
+    encoder.move(plant.position_m().x, wall.period_s / kParts);
+  }
+}
+
+bool comes_to_rest(const SampledWall& wall, double quantum_m, const bench::NamedEstimate& of,
+                   double stiffness) {
   Device plant(model_of(wall, quantum_m), {});
   const float per_m = static_cast<float>(1 / quantum_m);
-  const device::Settings settings = {{per_m, per_m, per_m}, {}, {1, 1, 1}, 100, velocity};
+  const device::Settings settings = {
+      {per_m, per_m, per_m}, {}, {1, 1, 1}, 100, {device::Estimator::kDifference, 0}};
   device::State state;
+  bench::VelocityEstimate velocity = of.estimate;
+  bench::StampedEncoder encoder(quantum_m, wall.period_s, 0);
   const int ticks = static_cast<int>(3 / wall.period_s);
   double low = 1, high = -1;
   for (int i = 0; i < ticks; ++i) {
     const device::Reading reading = device::read(
         state, settings, {{plant.count(0), 0, 0}, true, static_cast<float>(wall.period_s)});
     const double x = static_cast<double>(reading.position_m.x);
-    const double v = static_cast<double>(reading.velocity_mps.x);
+    bench::EncoderSample sample = encoder.take();
+    sample.count = plant.count(0);
+    const double v = velocity(sample);
     plant.command({x > 0 ? -stiffness * x - wall.damping_N_s_per_m * v : 0, 0, 0});
-    advance(plant, wall, 1);
+    if (of.uses_edges) pass_edges(plant, wall, 1, encoder);
+    advance(plant, wall, 1, wall.period_s);
     if (!(std::fabs(plant.position_m().x) < 0.5)) return false;
     if (i < 3 * (ticks / 4)) continue;
     low = std::fmin(low, plant.position_m().x);
@@ -166,10 +183,10 @@ double simulated_limit_N_per_m(const SampledWall& wall) {
 }
 
 double rest_limit_N_per_m(const SampledWall& wall, double quantum_m,
-                          const device::VelocitySettings& velocity) {
+                          const bench::NamedEstimate& of) {
   double last = 0;
   for (double k = 500; k < kHighest_N_per_m; k *= 1.01) {
-    if (!comes_to_rest(wall, quantum_m, velocity, k)) break;
+    if (!comes_to_rest(wall, quantum_m, of, k)) break;
     last = k;
   }
   return last;

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "firmtouch/device/cartesian.hpp"
+#include "bench/estimators.hpp"
 
 namespace firmtouch::host_sim {
 
@@ -35,10 +35,10 @@ bool is_schur_stable(const double* coefficient, uint32_t degree);
 double simulated_limit_N_per_m(const SampledWall& wall);
 
 /// Stiffest wall at which the simulated axis, pushed with 1 N, comes to rest: less than three
-/// quanta from peak to peak after 2.25 s. The position and the velocity are the firmware's
-/// (device::read). By a rise of 1 % until it does not.
+/// quanta from peak to peak after 2.25 s. The position is the firmware's (device::read). By a rise
+/// of 1 % until it does not. `of`: one that has seen no sample.
 double rest_limit_N_per_m(const SampledWall& wall, double quantum_m,
-                          const device::VelocitySettings& velocity);
+                          const bench::NamedEstimate& of);
 
 /// A wall on quantised positions, F = -K quantum (floor(x / quantum) + 1/2), and Coulomb friction.
 struct QuantisedWall {

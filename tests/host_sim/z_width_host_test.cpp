@@ -163,14 +163,23 @@ TEST(PassiveWall_IsBelowTheStableOne) {
 
 // 75 g, b 0.5, B 5, 30 um, 1 kHz. An ideal velocity would give 11,000 N/m, the low-pass gives 7,286
 // within the steps of the search.
-TEST(WallAtRest_Tracking_IsStifferThanTheLowPass) {
+TEST(WallAtRest_Tracking_IsStifferThanTheLowPass_AndEdgesThanBoth) {
   using firmtouch::device::Estimator;
+  namespace bench = firmtouch::bench;
   const SampledWall wall = {.075, .5, 1e-3, 5, 0, 0, 0, 0};
-  const double low_pass = rest_limit_N_per_m(wall, 30e-6, {Estimator::kLowPass, 150});
-  const double tracking = rest_limit_N_per_m(wall, 30e-6, {Estimator::kTracking, 0});
+  const double quantum_m = 30e-6;
+  const auto rest_of = [&](Estimator kind) {
+    return rest_limit_N_per_m(
+        wall, quantum_m,
+        {"", bench::firmware_estimate({kind, 150}, quantum_m, wall.period_s), false});
+  };
+  const double low_pass = rest_of(Estimator::kLowPass), tracking = rest_of(Estimator::kTracking);
+  const double edges = rest_limit_N_per_m(
+      wall, quantum_m, {"", bench::edge_estimate(quantum_m, wall.period_s), true});
   CHECK_LE(std::fabs(low_pass / 7286 - 1), 0.06);
   CHECK_GE(tracking, 1.15 * 7286);
   CHECK_LE(tracking, 11000);
+  CHECK_GE(edges, 1.1 * tracking);
 }
 
 TEST(QuantisedWall_CycleOfItsPeriod_HasTheExactAmplitude) {

@@ -5,7 +5,7 @@
 namespace firmtouch::device {
 
 /// Values of the parameter velocity_estimator. Append-only. `firmtouch bench velocity` compares
-/// them with windows, which are not built in here.
+/// them with windows and edge time stamps, which are not built in here.
 enum class Estimator : uint8_t {
   kDifference,  // of the last two samples
   kLowPass,     // the difference through a first-order low-pass
