@@ -5,6 +5,7 @@
 
 #include "bench/report.hpp"
 #include "firmtouch/servo/fault.hpp"
+#include "host_sim/hand/hands.hpp"
 #include "surface/random.hpp"
 
 namespace firmtouch::host_sim {
@@ -108,7 +109,9 @@ RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t 
   const double reach_m = machine.empty() ? 0.02 : kReachOfLinkage_m;
   const Vec start_m{seed % 4 == 1 ? -reach_m : reach_m, seed % 4 == 2 ? reach_m : 0, 1.5 * reach_m};
   const auto script = random_script(random, reach_m, stiffest_N_per_m, 20);
-  if (!machine.empty()) add_hand(random.uniform(), random.uniform(), settings);
+  const bool has_mass = std::any_of(settings.begin(), settings.end(),
+                                    [](const auto& line) { return line.first == "hand_mass"; });
+  if (!machine.empty() && !has_mass) add_hand(random.uniform(), random.uniform(), settings);
   return rig.run(solids[seed % 4], start_m, script, Contact::kProxy, settings);
 }
 
@@ -118,6 +121,23 @@ HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint
   for (uint64_t seed = 1; seed <= hands; ++seed) {
     const double gain_J = add(random_run(machine, stiffest_N_per_m, seed, settings), all);
     if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
+  }
+  return all;
+}
+
+HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                        const Lines& settings) {
+  HandsGain all;
+  for (uint64_t seed = 1; seed <= hands; ++seed) {
+    const KnownHand& known = known_hands()[seed / 3 % known_hands().size()];
+    const HandModel& grip = seed % 3 == 0 ? known.weak : seed % 3 == 1 ? known.mean : known.firm;
+    Lines lines = settings;
+    for (const HandKey& key : hand_keys())
+      lines.emplace_back(key.name, with_unit(grip.*key.member, key.unit));
+    const double gain_J = add(random_run(machine, stiffest_N_per_m, seed, lines), all);
+    if (gain_J <= all.worst_J) continue;
+    all.worst_J = gain_J;
+    all.worst = std::string(known.name) + ", seed " + std::to_string(seed);
   }
   return all;
 }

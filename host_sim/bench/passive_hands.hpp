@@ -20,12 +20,17 @@ struct HandsGain {
 double gain_J(const RigRun& run);
 
 /// A hand that goes at random about a solid, in and out of it, while stiffness, damping, radius and
-/// friction change. Its own stiffness and damping are random on a linkage (`machine`, as of Rig).
+/// friction change. Its own stiffness and damping are random on a linkage (`machine`, as of Rig),
+/// unless `settings` have a hand_mass.
 RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
                   Lines settings);
 /// The runs of seeds from 1.
 HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
                        const Lines& settings);
+
+/// The same of hands with a mass (hand/hands.hpp) in turn, each grip of each.
+HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                        const Lines& settings);
 
 /// Hands that knock on a plate, changed from random ones to the one that gains most: its aim, speed
 /// and impedance, the contact's stiffness and damping. On a linkage every start has its own pose.

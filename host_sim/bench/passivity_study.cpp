@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMaxGain_mJ = 1, kStiffest_N_per_m = 20000, kPeriod_s = 1e-3;
 constexpr uint32_t kSteps[] = {0, 0, 100, 20};  // of a joint, by the number of joints
+constexpr double kRows = 4;                     // of a machine
 constexpr uint32_t kTries = 19;                 // of a start, beside itself
 
 std::string remark_of(const HandsGain& gain) {
@@ -36,18 +37,19 @@ void study_passivity(const std::vector<std::string>& machines, uint32_t hands,
     const auto said = [&](const char* what, const HandsGain& gain) {
       report.bar(what, machine, 1e3 * gain.worst_J, "mJ", kMaxGain_mJ, remark_of(gain));
       report.bar_at_least("hands that touched", machine, gain.touched, "", 0.8 * gain.hands);
-      if (progress) progress(++done / (3.0 * static_cast<double>(machines.size())));
+      if (progress) progress(++done / (kRows * static_cast<double>(machines.size())));
     };
     const double stiffest_N_per_m = stiffest_of(machine);
     report.figure("stiffest wall that is predicted, at 1 kHz", machine, stiffest_N_per_m, "N/m");
     said("random hands: energy given", random_hands(machine, stiffest_N_per_m, hands, {}));
+    said("hands with a mass: energy given", massive_hands(machine, stiffest_N_per_m, hands, {}));
     said("worst hand found by hill climbing: energy given",
          worst_hand(machine, stiffest_N_per_m, starts, kTries, {}));
     const HandsGain without =
         random_hands(machine, kStiffest_N_per_m, hands, {{"energy_reservoir", "1000 J"}});
     report.bar_at_least("the same of random hands, not limited", machine, 1e3 * without.worst_J,
                         "mJ", kMaxGain_mJ, remark_of(without));
-    if (progress) progress(++done / (3.0 * static_cast<double>(machines.size())));
+    if (progress) progress(++done / (kRows * static_cast<double>(machines.size())));
   }
 }
 

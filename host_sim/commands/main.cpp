@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
        "Runs a controller with a simulated device and a simulated hand.",
        {run_command(), replay_command(), record_command(), live_command(), scenario_command(),
         view_command(), score_command(), bench_command(), study_command(), z_width_command(),
-        device_command(), home_command(), compare_command(), sweep_command(), merge_command(),
-        export_command(), crash_command(), load_command()}},
+        hands_command(), device_command(), home_command(), compare_command(), sweep_command(),
+        merge_command(), export_command(), crash_command(), load_command()}},
       argc, argv);
 }

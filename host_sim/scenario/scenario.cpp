@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "host_sim/hand/hands.hpp"
 #include "host_sim/scenario/moves.hpp"
 
 namespace firmtouch::host_sim {
@@ -43,6 +44,12 @@ const Key kKeys[] = {
      [](Scenario& s) -> double& { return s.hand.stiffness_N_per_m; }, "of the grip"},
     {"hand_damping", "N*s/m", 0, 1000,
      [](Scenario& s) -> double& { return s.hand.damping_N_s_per_m; }, "of the grip"},
+    {"hand_mass", "kg", 0, 10, [](Scenario& s) -> double& { return s.hand.mass_kg; },
+     "that the grip holds and the arm moves; 0: the grip follows the script"},
+    {"hand_arm_stiffness", "N/m", 0, 100000,
+     [](Scenario& s) -> double& { return s.hand.arm_stiffness_N_per_m; }, "of a hand with a mass"},
+    {"hand_arm_damping", "N*s/m", 0, 1000,
+     [](Scenario& s) -> double& { return s.hand.arm_damping_N_s_per_m; }, "of a hand with a mass"},
     {"hand_stiffening", "1/m", 0, 10000,
      [](Scenario& s) -> double& { return s.hand.stiffening_per_m; },
      "share by which the grip is stiffer a metre that it is stretched"},
@@ -51,6 +58,7 @@ const Key kKeys[] = {
     {"hand_tremor_frequency", "Hz", 0.1, 50,
      [](Scenario& s) -> double& { return s.hand.tremor_Hz; }, "people have 8 to 12 Hz"},
 };
+constexpr double kMinSubsteps = 16;         // of a tick, by Machine
 constexpr double kMaxDelaySamples = 64;     // force feedback is impossible with more than 64 ms
 constexpr double kMaxTurn_rad = 6.2831853;  // of a tool, as the controller allows
 
@@ -63,6 +71,7 @@ struct Reader {
   bool own_key(const std::string& name, LineReader& words);
   bool parameter(const std::string& name, LineReader& words);
   void event(LineReader& words);
+  void hand(LineReader& words);
   void once(const std::string& name, LineReader& words);
 };
 
@@ -185,6 +194,19 @@ void Reader::event(LineReader& words) {
   out.events.push_back(event);
 }
 
+// hand NAME weak|mean|firm: the five keys at once.
+void Reader::hand(LineReader& words) {
+  const std::string name = words.next("a hand"), grip = words.next("a grip");
+  const HandModel* const found = find_hand(name, grip);
+  if (found == nullptr)
+    words.refuse("unknown hand `" + name + " " + grip + "`; hands are " + hand_names() +
+                 ", each weak, mean or firm; firmtouch-sim hands lists them");
+  for (const HandKey& key : hand_keys()) {
+    once(key.name, words);
+    out.hand.*key.member = found->*key.member;
+  }
+}
+
 void Reader::statement(LineReader& words) {
   const std::string name = words.next("a statement");
   if (name == "asset") {
@@ -200,6 +222,8 @@ void Reader::statement(LineReader& words) {
     once(name, words);
     out.start_m = words.point("start");
     out.has_start = true;
+  } else if (name == "hand") {
+    hand(words);
   } else if (name == "at") {
     event(words);
   } else if (is_move(name)) {
@@ -218,6 +242,19 @@ void check_axes(const Reader& reader) {
     if (std::find(reader.given.begin(), reader.given.end(), name) != reader.given.end())
       throw Refused(reader.out.file + ": `" + name + "` is of a device with straight axes; it " +
                     "stands in " + reader.out.device_file + " for its joints");
+}
+
+// The grip is a force that is constant during a substep.
+void check_hand(const Scenario& scenario) {
+  const HandModel& hand = scenario.hand;
+  if (!(hand.mass_kg > 0)) return;
+  if (hand.stiffening_per_m > 0)
+    throw Refused(scenario.file + ": `hand_stiffening` is of a hand without `hand_mass`");
+  const double step_s = 1 / (kMinSubsteps * scenario.rate_Hz);
+  if (!(hand.damping_N_s_per_m * step_s <= 0.2 * hand.mass_kg &&
+        hand.stiffness_N_per_m * step_s * step_s <= 0.1 * hand.mass_kg))
+    throw Refused(scenario.file + ": the grip is too stiff to simulate with so light a hand; " +
+                  "raise `hand_mass` or `rate`, or lower `hand_damping`");
 }
 
 void check_whole(const Scenario& scenario) {
@@ -239,7 +276,7 @@ Scenario read_scenario(const std::string& file, const std::string& text,
   std::vector<std::string> names;
   for (const Key& key : kKeys) names.emplace_back(key.name);
   for (const char* name : {"output_delay", "asset", "device", "mesh", "guide", "start", "at",
-                           "move", "hold", "press", "follow"})
+                           "hand", "move", "hold", "press", "follow"})
     names.emplace_back(name);
   for (const ParameterRow& row : parameters) names.push_back(row.short_name);
   tools::read_lines(
@@ -253,6 +290,7 @@ Scenario read_scenario(const std::string& file, const std::string& text,
   }
   check_whole(reader.out);
   check_axes(reader);
+  check_hand(reader.out);
   std::stable_sort(reader.out.events.begin(), reader.out.events.end(),
                    [](const Event& a, const Event& b) { return a.time_s < b.time_s; });
   return reader.out;
@@ -281,6 +319,8 @@ std::string scenario_help() {
     if (value > 0) help << " (" << value << ")";
     help << "\n";
   }
+  help << "  hand NAME weak|mean|firm          the five keys of a hand with a mass; NAME: "
+       << hand_names() << "\n";
   help << "  output_delay VALUE samples        from the computed force to the motor's (0)\n"
           "  PARAMETER VALUE UNIT              any parameter of the controller, listed below\n\n"
           "The hand's script; the lines run one after the other:\n"

@@ -17,6 +17,8 @@ using tools::Refused;
 struct HandModel {
   double stiffness_N_per_m = 400;  // a relaxed grip
   double damping_N_s_per_m = 4;
+  // Above 0: the grip holds a mass, and the arm moves it (hand/palm.hpp).
+  double mass_kg = 0, arm_stiffness_N_per_m = 200, arm_damping_N_s_per_m = 4;
   // A grip stiffens with force: that of a stretch s is stiffness s (1 + stiffening s).
   double stiffening_per_m = 0;
   // Physiological tremor has 8 to 12 Hz (Elble & Koller 1990, Tremor). In each axis; their phases

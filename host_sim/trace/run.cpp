@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <sstream>
 
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/step.hpp"
 #include "host_sim/hand/arm.hpp"
 #include "host_sim/hand/hand.hpp"
+#include "host_sim/hand/palm.hpp"
 #include "host_sim/plant/machine.hpp"
 
 namespace firmtouch::host_sim {
@@ -258,11 +260,14 @@ struct Simulation::Loop {
         substeps(machine.substeps(1 / scenario.rate_Hz)),
         substep_s(1 / scenario.rate_Hz / substeps),
         arm(hand.start_m(), substep_s),
-        panel(scenario, environment) {}
+        panel(scenario, environment) {
+    if (scenario.hand.mass_kg > 0) palm.emplace(scenario.hand, hand.start_m());
+  }
 
   Vec hand_N() const {
     if (is_away() || machine.is_torn_off()) return {};
-    return hand.force_N(script_s, arm.position_m(), arm.velocity_mps(), machine.position_m(),
+    return hand.force_N(script_s, palm ? palm->position_m() : arm.position_m(),
+                        palm ? palm->velocity_mps() : arm.velocity_mps(), machine.position_m(),
                         machine.velocity_mps());
   }
   bool is_away() const { return (last.state & record::kStateNotHomed) != 0; }
@@ -272,6 +277,7 @@ struct Simulation::Loop {
     const double period_s = 1 / scenario.rate_Hz;
     if (is_away()) {
       arm = Arm(machine.position_m(), substep_s);
+      if (palm) palm.emplace(scenario.hand, machine.position_m());
       reach_from = machine.joints();
       reach_left_s = kReach_s;
     }
@@ -289,6 +295,7 @@ struct Simulation::Loop {
       const Vec force_N = hand_N(), from_m = machine.position_m();
       machine.advance(force_N, substep_s);
       hand_J += dot(force_N, machine.position_m() - from_m);
+      if (palm) palm->advance(arm.position_m(), arm.velocity_mps(), force_N, substep_s);
       script_s += substep_s;
     }
   }
@@ -301,6 +308,7 @@ struct Simulation::Loop {
   uint32_t substeps;
   double substep_s;
   Arm arm;
+  std::optional<Palm> palm;
   Operator panel;
   record::TickOutput last{};
   double hand_J = 0;

@@ -39,3 +39,10 @@ TEST(Passivity_CarriedWeight_GivesAMovingHandNoEnergy) {
 TEST(Passivity_WithoutALimit_ALinkageGivesMore) {
   CHECK_GE(gain_J(random_run("touch_like", 20000, 1, {{"energy_reservoir", "1000 J"}})), 0.001);
 }
+
+TEST(Passivity_HandsWithAMass_GainNoMoreThanAMillijoule) {
+  const HandsGain gain = massive_hands("touch_like", 5253, 9, {});
+  CHECK_EQ(gain.hands, 9u);
+  CHECK_EQ(gain.touched, 9u);
+  CHECK_LE(gain.worst_J, 0.001);
+}

@@ -75,7 +75,8 @@ TEST(Scenario_EveryMistake_ReportsItsLine) {
   constexpr Case kCases[] = {
       {"masss 1 kg", "did you mean `mass`"},
       {"stiffness 800 N/m",
-       "did you mean `hand_stiffness`, `contact_stiffness`, `guide_stiffness`?"},
+       "did you mean `hand_stiffness`, `hand_arm_stiffness`, `contact_stiffness`, "
+       "`guide_stiffness`?"},
       {"mass 1 m", "`m` is not a unit for `mass`; write one of: kg, g"},
       {"mass 1 pound", "`pound` is not a unit"},
       {"mass 1", "the unit of `mass`"},
