@@ -27,6 +27,7 @@
 #include "target/count.hpp"
 #include "target/random.hpp"
 #include "target/scene_views.hpp"
+#include "target/worst_cases.hpp"
 
 using namespace firmtouch;  // NOLINT: a program of the tests
 using math::Vec3;
@@ -116,8 +117,8 @@ class Attack {
   void run() {
     for (uint32_t i = 0; i < settings_.rounds; ++i) {
       const uint32_t way = random_.below(8);
-      if (way >= 5 && i > kWorst) {
-        const Case& from = worst_[random_.below(kWorst)];
+      if (way >= 5 && i > worst_.kSize) {
+        const Case& from = worst_.any(random_);
         now_ = from;
         if (way == 5) now_.budget = a_budget();
         measure(from.p_m + random_.cube() * random_.scale(kReach * 0.01f * box_.extent_m, 12));
@@ -131,7 +132,7 @@ class Attack {
   }
 
  private:
-  static constexpr uint32_t kWorst = 16, kBins = 64;
+  static constexpr uint32_t kBins = 64;
   struct Case {
     typename Subject::State state;  // before the query
     Vec3 p_m;
@@ -180,14 +181,7 @@ class Attack {
                         static_cast<float>(units) * static_cast<float>(settings_.per_unit);
     tried.ratio = static_cast<float>(taken) / bound;
     if (tried.ratio > ratio_) ratio_ = tried.ratio, units_ = units, taken_ = taken;
-    keep(tried);
-  }
-
-  void keep(const Case& tried) {
-    uint32_t least = 0;
-    for (uint32_t i = 1; i < kWorst; ++i)
-      if (worst_[i].ratio < worst_[least].ratio) least = i;
-    if (tried.ratio > worst_[least].ratio) worst_[least] = tried;
+    worst_.keep(tried);
   }
 
   // Up to 16 one by one, then four to an octave.
@@ -224,7 +218,7 @@ class Attack {
   float ratio_ = 0;
   uint32_t units_ = 0, taken_ = 0;
   uint32_t most_[kBins] = {};
-  Case worst_[kWorst];
+  target::WorstCases<Case, &Case::ratio> worst_;
 };
 
 template <class Subject>

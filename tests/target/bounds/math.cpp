@@ -10,6 +10,7 @@
 #include "firmtouch/record/tick.hpp"
 #include "target/bounds/meter.hpp"
 #include "target/random.hpp"
+#include "target/worst_cases.hpp"
 
 namespace firmtouch::target {
 namespace {
@@ -131,12 +132,12 @@ void change_planes(Random& random, Planes& planes) {
 }
 
 void measure_planes() {
-  static Planes worst[16];
+  static WorstCases<Planes, &Planes::taken> worst;
   Random random(13);
   Worst all;
   math::NearestInPlanes nearest;
   for (uint32_t i = 0; i < 40000; ++i) {
-    Planes now = worst[random.below(16)];
+    Planes now = worst.any(random);
     if (i < 1000 || random.below(3) == 0)
       put_planes(random, now);
     else
@@ -145,10 +146,7 @@ void measure_planes() {
         instructions_of([&] { nearest = math::nearest_in_planes(now.plane, 7, now.goal_m); });
     asm volatile("" ::"r"(&nearest) : "memory");
     all.take(now.taken);
-    Planes* least = worst;
-    for (Planes& one : worst)
-      if (one.taken < least->taken) least = &one;
-    if (now.taken > least->taken) *least = now;
+    worst.keep(now);
   }
   print_figure("math/nearest_in_planes.hpp", all);
 }

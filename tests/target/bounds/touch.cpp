@@ -5,6 +5,7 @@
 #include "target/bounds/asset.hpp"
 #include "target/bounds/hand.hpp"
 #include "target/bounds/meter.hpp"
+#include "target/worst_cases.hpp"
 
 namespace firmtouch::target {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 using math::Vec3;
 
 constexpr uint32_t kTicks = 40000;
-constexpr uint32_t kWorst = 16;
 
 // The mesh as a shape; counts what its queries take.
 struct Counted {
@@ -82,7 +82,7 @@ class TouchAttack {
   }
 
   void try_worst() {
-    now_ = worst_[random().below(kWorst)];
+    now_ = worst_.any(random());
     now_.at_m = now_.at_m + random().cube() * random().scale(1e-6f * hand_.extent_m(), 16);
   }
 
@@ -109,21 +109,15 @@ class TouchAttack {
     const uint8_t was = before.materials.textured, is = now_.materials.textured;
     const uint8_t textured = was > is ? was : is;
     (textured >= 3 ? relief_ : textured == 2 ? waves_ : plain_).take(added);
-    keep(before);
-  }
-
-  void keep(const State& state) {
-    uint32_t least = 0;
-    for (uint32_t k = 1; k < kWorst; ++k)
-      if (worst_[k].taken < worst_[least].taken) least = k;
-    if (state.taken > worst_[least].taken) worst_[least] = state;
+    worst_.keep(before);
   }
 
   Hand hand_;
   scene::MaterialMeshObject object_;
   Counted shape_{object_, {}, 0, {}};
   scene::ProxyContact contact_;
-  State now_, worst_[kWorst];
+  State now_;
+  WorstCases<State, &State::taken> worst_;
   Worst plain_, waves_, relief_, own_;
 };
 
