@@ -1,9 +1,8 @@
 // The controller homes the linkage of its asset: joints of numbers between stops, as oracle of
 // where they are. No force before, the record says what happens, and a log replays it.
 #include <cmath>
-#include <vector>
 
-#include "controller/ride.hpp"
+#include "controller/joints_rig.hpp"
 #include "firmtouch/device/rules.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
@@ -17,20 +16,10 @@ constexpr float kLow_rad[3] = {-0.8f, 0.2f, -2.0f}, kHigh_rad[3] = {0.8f, 1.2f, 
 
 device::HomedLinkageLayout layout_by(device::HomeBy by) {
   device::HomedLinkageLayout to = {};
-  device::LinkageLayout& l = to.linkage;
-  l.kind = device::kSerialArm;
-  l.joints = 3;
-  l.length_m[0] = 0.3f;
-  l.length_m[1] = 0.25f;
-  l.torque_rise_s = 0.002f;
-  l.max_speed_rad_per_s = 50;
-  l.full_from = 0.1f;
-  l.gone_at = 0.05f;
+  to.linkage = arm_layout(kCounts, kLow_rad, kHigh_rad);
   to.homing.by = static_cast<uint32_t>(by);
   to.homing.margin_rad = 0.1f;
   for (uint32_t k = 0; k < 3; ++k) {
-    l.joint[k] = {kCounts, 0, kLow_rad[k], kHigh_rad[k]};
-    l.max_torque_Nm[k] = 2;
     if (by == device::HomeBy::kStops) to.homing.torque_Nm[k] = kTorque_Nm;
     if (by == device::HomeBy::kKnownPose) to.homing.pose_rad[k] = kLow_rad[k] + 0.3f;
   }
@@ -39,22 +28,13 @@ device::HomedLinkageLayout layout_by(device::HomeBy by) {
 }
 
 const Asset& asset_by(device::HomeBy by) {
-  const auto made = [](device::HomeBy how) {
-    const device::HomedLinkageLayout layout = layout_by(how);
-    std::vector<tools::Section> sections = part_sections();
-    sections.push_back(tools::make_section(device::kLinkageSection, "arm", &layout, 1));
-    return Asset(file_of(std::move(sections)));
-  };
+  const auto made = [](device::HomeBy how) { return Asset(file_with(layout_by(how))); };
   static const Asset stops(made(device::HomeBy::kStops)), pose(made(device::HomeBy::kKnownPose));
   return by == device::HomeBy::kStops ? stops : pose;
 }
 
 // Masses between springs, switched on where they stand; two encoders may be swapped.
-struct Rig {
-  FullController controller;
-  record::TickInput input{};
-  record::TickOutput output{};
-  std::vector<record::TickRecord> log;
+struct Rig : JointsRig<FullController> {
   float angle_rad[3] = {0.1f, 0.6f, -1.1f}, rate[3] = {};
   float seen_rad[3] = {};  // where this tick's counts are from
   float blocked_rad = 9;   // a finger on joint 1
@@ -63,8 +43,7 @@ struct Rig {
   float rendered_N = 0, largest_Nm = 0;  // before it was homed
   uint32_t modes = 0;                    // and a bit for each mode
 
-  explicit Rig(device::HomeBy by) {
-    CHECK_EQ(controller.open(asset_by(by).bytes()).rule, 0u);
+  explicit Rig(device::HomeBy by) : JointsRig(asset_by(by)) {
     for (int k = 0; k < 3; ++k) from[k] = counts(k);
   }
   int32_t counts(int k) const {
@@ -82,15 +61,10 @@ struct Rig {
       }
   }
   void tick(uint32_t flags, uint32_t command = record::kCommandNone) {
-    input.clock_us = input.tick * 1000;
-    input.flags = flags;
-    input.command = command;
     for (int k = 0; k < 3; ++k) input.encoder_counts[k] = counts(k) - from[k];
     if (swaps) std::swap(input.encoder_counts[0], input.encoder_counts[2]);
     for (int k = 0; k < 3; ++k) seen_rad[k] = angle_rad[k];
-    controller.tick(input, output);
-    log.push_back({input, output});
-    ++input.tick;
+    step(flags, command);
     if (is_not_homed()) modes |= 1u << mode();
     if (is_not_homed())
       for (int k = 0; k < 3; ++k) {
@@ -109,24 +83,12 @@ struct Rig {
   }
   bool is_not_homed() const { return (output.state & record::kStateNotHomed) != 0; }
   bool is_homing() const { return (output.state & record::kStateHoming) != 0; }
-  uint32_t mode() const { return output.state & record::kStateServoMask; }
   uint32_t failed() const { return output.state >> record::kStateHomingFaultShift; }
   double off_m() const {
-    const double q0 = static_cast<double>(seen_rad[0]), q1 = static_cast<double>(seen_rad[1]);
-    const double q2 = q1 + static_cast<double>(seen_rad[2]);
-    const double out = .3 * std::cos(q1) + .25 * std::cos(q2);
-    return std::hypot(
-        static_cast<double>(output.position_m[0]) - out * std::cos(q0),
-        static_cast<double>(output.position_m[1]) - out * std::sin(q0),
-        static_cast<double>(output.position_m[2]) - (.3 * std::sin(q1) + .25 * std::sin(q2)));
+    return JointsRig::off_m({static_cast<double>(seen_rad[0]), static_cast<double>(seen_rad[1]),
+                             static_cast<double>(seen_rad[2])});
   }
 };
-
-void check_replays(const Rig& rig, device::HomeBy by) {
-  static FullController again;
-  CHECK_EQ(again.open(asset_by(by).bytes()).rule, 0u);
-  CHECK_EQ(differing_ticks(again, rig.log), 0u);
-}
 
 }  // namespace
 
@@ -148,7 +110,7 @@ TEST(HomedDevice_ByStops_RendersOnlyAfterIt) {
   for (int i = 0; i < 400; ++i) rig.tick(record::kFlagEnable);
   CHECK_EQ(rig.mode(), 2u);  // on, after its ramp
   CHECK_LE(rig.off_m(), 2e-4);
-  check_replays(rig, device::HomeBy::kStops);
+  check_replays(rig, asset_by(device::HomeBy::kStops));
 }
 
 TEST(HomedDevice_ByAKnownPose_MovesNothing) {
@@ -199,7 +161,7 @@ TEST(HomedDevice_WrongAxesAndFingers_AreNamed) {
   rig.tick(0, record::kCommandClearFaults);
   rig.enable();
   CHECK(!rig.is_not_homed());
-  check_replays(rig, device::HomeBy::kStops);
+  check_replays(rig, asset_by(device::HomeBy::kStops));
 }
 
 TEST(HomedDevice_LostEncoder_IsHomedAnew) {

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
-#include "controller/ride.hpp"
+#include "controller/joints_rig.hpp"
 #include "firmtouch/controller/redundant_device.hpp"
 #include "firmtouch/device/rules.hpp"
 
@@ -26,22 +25,11 @@ struct Section {
 
 Section arm() {
   Section to = {};
-  device::LinkageLayout& l = to.homed.linkage;
-  l.kind = device::kSerialArm;
-  l.joints = 3;
-  l.length_m[0] = 0.3f;
-  l.length_m[1] = 0.25f;
-  l.torque_rise_s = 0.002f;
-  l.max_speed_rad_per_s = 50;
-  l.full_from = 0.1f;
-  l.gone_at = 0.05f;
+  to.homed.linkage = arm_layout(static_cast<float>(kCounts), kLow_rad, kHigh_rad);
   to.homed.homing.by = static_cast<uint32_t>(device::HomeBy::kStops);
   to.homed.homing.margin_rad = 0.1f;
   to.homed.homing.speed_rad_per_s = 6;
   for (uint32_t k = 0; k < 3; ++k) {
-    l.joint[k] = {static_cast<float>(kCounts), 0, static_cast<float>(kLow_rad[k]),
-                  static_cast<float>(kHigh_rad[k])};
-    l.max_torque_Nm[k] = 2;
     to.homed.homing.torque_Nm[k] = 0.2f;
     to.index.index_rad[k] = static_cast<float>(kIndex_rad[k]);
     to.index.period_rad[k] = static_cast<float>(kPeriod_rad);
@@ -50,26 +38,17 @@ Section arm() {
   return to;
 }
 
-template <class Layout>
-const Asset& asset_of(const Layout& layout) {
-  static const Asset made([&] {
-    std::vector<tools::Section> sections = part_sections();
-    sections.push_back(tools::make_section(device::kLinkageSection, "arm", &layout, 1));
-    return file_of(std::move(sections));
-  }());
+const Asset& arm_asset() {
+  static const Asset made(file_with(arm()));
   return made;
 }
 
-template <class Device>
-using MeshController = Controller<Surfaces<MeshSurface>, NoGuide, Device>;
-
 // Masses between springs until they are homed; then a hand swings them.
 template <class Device = IndexedDevice>
-struct Rig {
-  MeshController<Device> controller;
-  record::TickInput input{};
-  record::TickOutput output{};
-  std::vector<record::TickRecord> log;
+struct Rig : JointsRig<MeshController<Device>> {
+  using Base = JointsRig<MeshController<Device>>;
+  using Base::controller, Base::input, Base::output;
+
   double angle_rad[3] = {0.1, 0.6, -1.1}, rate[3] = {}, phase[3] = {};
   double soft_Nm_per_rad[3] = {40, 25, 60};  // the upper stop; the lower ones have 40
   uint32_t pulses = 0, slipping = 0;         // pulses: of this tick, after a slip of this joint
@@ -78,7 +57,7 @@ struct Rig {
   bool is_absent = false, was_homed = false;
   double speed = 2;
 
-  Rig() { CHECK_EQ(controller.open(asset_of(arm()).bytes()).rule, 0u); }
+  Rig() : Base(arm_asset()) {}
   int32_t counts(int k, double at_rad) const {
     const int32_t off = static_cast<uint32_t>(k) == slipping ? slipped : 0;
     return static_cast<int32_t>(std::floor(at_rad * kCounts)) + off - 4000 * k + 70;
@@ -122,13 +101,8 @@ struct Rig {
     }
   }
   void tick(uint32_t flags, uint32_t command = record::kCommandNone) {
-    input.clock_us = input.tick * 1000;
-    input.flags = flags | record::flags_of_index(pulses, latched);
-    input.command = command;
     for (int k = 0; k < 3; ++k) input.encoder_counts[k] = counts(k, angle_rad[k]);
-    controller.tick(input, output);
-    log.push_back({input, output});
-    ++input.tick;
+    Base::step(flags | record::flags_of_index(pulses, latched), command);
     move();
   }
   // Result: whether the motors are on, homed.
@@ -136,32 +110,11 @@ struct Rig {
     tick(0);
     for (int i = 0; i < 2500 && output.faults == 0; ++i) {
       tick(record::kFlagEnable);
-      if ((output.state & record::kStateServoMask) == 2) return true;
+      if (Base::mode() == 2) return true;
     }
     return false;
   }
-  double motors_Nm() const {
-    double sum_Nm = 0;
-    for (const float torque_Nm : output.motor_N)
-      sum_Nm += std::fabs(static_cast<double>(torque_Nm));
-    return sum_Nm;
-  }
-  // From the tip at these angles to where the controller sees it.
-  double off_m(const double (&at)[3]) const {
-    const double out = .3 * std::cos(at[1]) + .25 * std::cos(at[1] + at[2]);
-    const double up = .3 * std::sin(at[1]) + .25 * std::sin(at[1] + at[2]);
-    return std::hypot(static_cast<double>(output.position_m[0]) - out * std::cos(at[0]),
-                      static_cast<double>(output.position_m[1]) - out * std::sin(at[0]),
-                      static_cast<double>(output.position_m[2]) - up);
-  }
 };
-
-template <class Device>
-void check_replays(const Rig<Device>& rig) {
-  static MeshController<Device> again;
-  CHECK_EQ(again.open(asset_of(arm()).bytes()).rule, 0u);
-  CHECK_EQ(differing_ticks(again, rig.log), 0u);
-}
 
 }  // namespace
 
@@ -180,7 +133,7 @@ TEST(IndexedDevice_IsHomedWithinACount_AndSoundPulsesAreNoFault) {
   }
   CHECK_EQ(rig.output.faults, 0u);
   CHECK_LE(worst_m, 3 * 0.55 / kCounts);
-  check_replays(rig);
+  check_replays(rig, arm_asset());
 }
 
 TEST(IndexedDevice_ASlippedBelt_IsAFaultInTheTickOfThePulse) {
@@ -203,7 +156,7 @@ TEST(IndexedDevice_ASlippedBelt_IsAFaultInTheTickOfThePulse) {
       CHECK_EQ(rig.output.faults, servo::kFaultEncoder);
       for (int i = 0; i < 10; ++i) rig.tick(record::kFlagEnable);
       CHECK_LE(rig.motors_Nm(), 0.0);
-      if (from == 50) check_replays(rig);
+      if (from == 50) check_replays(rig, arm_asset());
     }
 }
 
@@ -221,7 +174,7 @@ TEST(IndexedDevice_AfterASlip_HomesAnew) {
   CHECK(rig.enable());
   for (int i = 0; i < 8000; ++i) rig.tick(record::kFlagEnable);
   CHECK_EQ(rig.output.faults, 0u);
-  check_replays(rig);
+  check_replays(rig, arm_asset());
 }
 
 TEST(IndexedDevice_AnAbsentIndex_IsAFaultInHomingAndAfterIt) {
@@ -277,12 +230,10 @@ TEST(IndexedDevice_ItsSectionNeedsIt_AndItsRulesHold) {
   CHECK(std::memcmp(plain.log.data(), both.log.data(), sizeof plain.log[0] * plain.log.size()) ==
         0);
   static MeshController<HomedDevice> homes;
-  CHECK_EQ(homes.open(asset_of(arm()).bytes()).rule, uint16_t{device::kRuleLinkageSize});
+  CHECK_EQ(homes.open(arm_asset().bytes()).rule, uint16_t{device::kRuleLinkageSize});
   Section broken = arm();
   broken.index.within_rad = 1;
-  std::vector<tools::Section> sections = part_sections();
-  sections.push_back(tools::make_section(device::kLinkageSection, "arm", &broken, 1));
-  const Asset asset(file_of(std::move(sections)));
+  const Asset asset(file_with(broken));
   static MeshController<IndexedDevice> controller;
   CHECK_EQ(controller.open(asset.bytes()).rule, uint16_t{device::kRuleIndex});
   CHECK(!controller.device().linkage().is_open() && !controller.is_ready());

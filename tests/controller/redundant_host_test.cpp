@@ -3,9 +3,8 @@
 // replays.
 #include <cmath>
 #include <cstring>
-#include <vector>
 
-#include "controller/ride.hpp"
+#include "controller/joints_rig.hpp"
 #include "firmtouch/controller/redundant_device.hpp"
 #include "firmtouch/device/rules.hpp"
 
@@ -28,20 +27,11 @@ struct HomedSection {
 
 HomedSection arm() {
   HomedSection to = {};
-  device::LinkageLayout& l = to.homed.linkage;
-  l.kind = device::kSerialArm;
-  l.joints = 3;
-  l.length_m[0] = 0.3f;
-  l.length_m[1] = 0.25f;
-  l.torque_rise_s = 0.002f;
-  l.max_speed_rad_per_s = 50;
-  l.full_from = 0.1f;
-  l.gone_at = 0.05f;
+  constexpr double kLow_rad[3] = {-0.8, -0.8, -2.0}, kHigh_rad[3] = {1.2, 1.2, -0.3};
+  to.homed.linkage = arm_layout(static_cast<float>(kFirst), kLow_rad, kHigh_rad);
   to.homed.homing.by = static_cast<uint32_t>(device::HomeBy::kKnownPose);
   to.homed.homing.margin_rad = 0.1f;
   for (uint32_t k = 0; k < 3; ++k) {
-    l.joint[k] = {static_cast<float>(kFirst), 0, k == 2 ? -2.0f : -0.8f, k == 2 ? -0.3f : 1.2f};
-    l.max_torque_Nm[k] = 2;
     to.homed.homing.pose_rad[k] = k == 2 ? -1.2f : 0.5f;
     to.second.counts_per_rad[k] = static_cast<float>(kSecond);
   }
@@ -51,11 +41,7 @@ HomedSection arm() {
 
 template <class Layout>
 const Asset& asset_of(const Layout& layout) {
-  static const Asset made([&] {
-    std::vector<tools::Section> sections = part_sections();
-    sections.push_back(tools::make_section(device::kLinkageSection, "arm", &layout, 1));
-    return file_of(std::move(sections));
-  }());
+  static const Asset made(file_with(layout));
   return made;
 }
 const Asset& absolute() {
@@ -64,32 +50,23 @@ const Asset& absolute() {
 }
 const Asset& homed() { return asset_of(arm()); }
 
-template <class Device>
-using MeshController = Controller<Surfaces<MeshSurface>, NoGuide, Device>;
-
 // Joints that swing; the first encoder of joint 1 may fail.
 template <class Device>
-struct Rig {
-  MeshController<Device> controller;
-  record::TickInput input{};
-  record::TickOutput output{};
-  std::vector<record::TickRecord> log;
+struct Rig : JointsRig<MeshController<Device>> {
+  using Base = JointsRig<MeshController<Device>>;
+  using Base::input, Base::output;
+
   double angle_rad[3] = {}, off_rad = 0, stuck_rad = kSound;
   int32_t slipped = 0;
   uint32_t times = 0;
 
-  explicit Rig(const Asset& asset) {
-    CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
-    swing();
-  }
+  explicit Rig(const Asset& asset) : Base(asset) { swing(); }
   void swing() {
     const double along = 0.002 * times++;
     const double middle_rad[3] = {0.2, 0.5, -1.2};
     for (int k = 0; k < 3; ++k) angle_rad[k] = middle_rad[k] + 0.3 * std::sin(along * (k + 2));
   }
   void tick(uint32_t flags, uint32_t command = record::kCommandNone) {
-    input.clock_us = input.tick * 1000;
-    input.command = command;
     uint8_t second[3];
     for (int k = 0; k < 3; ++k) {
       const double seen_rad = k == 1 && stuck_rad > kSound ? stuck_rad : angle_rad[k];
@@ -98,10 +75,7 @@ struct Rig {
     }
     input.encoder_counts[1] += slipped;
     off_rad = input.encoder_counts[1] / kFirst - angle_rad[1];
-    input.flags = flags | record::flags_of_second(second);
-    controller.tick(input, output);
-    log.push_back({input, output});
-    ++input.tick;
+    Base::step(flags | record::flags_of_second(second), command);
     swing();
   }
   void run(uint32_t ticks) {
@@ -119,21 +93,8 @@ struct Rig {
     }
     return most;
   }
-  double motors_Nm() const {
-    double sum_Nm = 0;
-    for (const float torque_Nm : output.motor_N)
-      sum_Nm += std::fabs(static_cast<double>(torque_Nm));
-    return sum_Nm;
-  }
-  bool is_on() const { return (output.state & record::kStateServoMask) == 2; }
+  bool is_on() const { return Base::mode() == 2; }
 };
-
-template <class Device>
-void check_replays(const Rig<Device>& rig, const Asset& asset) {
-  MeshController<Device> again;
-  CHECK_EQ(again.open(asset.bytes()).rule, 0u);
-  CHECK_EQ(differing_ticks(again, rig.log), 0u);
-}
 
 }  // namespace
 
@@ -217,9 +178,7 @@ TEST(RedundantDevice_ItsSectionNeedsIt_AndItsRulesHold) {
   HomedSection broken = arm();
   broken.second.within_rad = 1;
   MeshController<RedundantDevice<HomedDevice>> controller;
-  std::vector<tools::Section> sections = part_sections();
-  sections.push_back(tools::make_section(device::kLinkageSection, "arm", &broken, 1));
-  const Asset asset(file_of(std::move(sections)));
+  const Asset asset(file_with(broken));
   CHECK_EQ(controller.open(asset.bytes()).rule, uint16_t{device::kRuleSecondEncoder});
   CHECK(!controller.device().linkage().is_open() && !controller.is_ready());
 }
