@@ -51,7 +51,10 @@ class Operator {
     enable_tick_ = static_cast<uint32_t>(setup_ticks(scenario));
     for (const PlacedMesh& placed : environment.meshes()) objects_.push_back(placed.name);
     for (const Event& event : scenario.events)
-      if (event.kind == Event::Kind::kMoveObject) check_object(event.object);
+      if (event.kind == Event::Kind::kMoveObject)
+        check_object(event.object);
+      else if (event.kind == Event::Kind::kSet)
+        check_stands(event.parameter);
   }
   // `last`: output of the tick before.
   void fill(record::TickInput& input, const record::TickOutput& last, double time_s) {
@@ -113,6 +116,14 @@ class Operator {
   uint32_t number_of(const std::string& object) const {
     return static_cast<uint32_t>(std::find(objects_.begin(), objects_.end(), object) -
                                  objects_.begin());
+  }
+  // Oracles and charts know one place of the scene.
+  void check_stands(uint32_t parameter) const {
+    for (const params::Index of_scene :
+         {params::kSceneX, params::kSceneY, params::kSceneZ, params::kSurfaceTurned})
+      if (parameter == of_scene)
+        throw Refused(scenario_.file + ": `set " + params::kTable[parameter].name +
+                      "`: the simulated scene stands; give its place without `at`");
   }
   void check_object(const std::string& object) const {
     const std::string place = scenario_.file + ": `move " + object + "`: ";
