@@ -57,6 +57,7 @@ Rig::Rig(uint64_t its_seed, const std::string& machine) : seed(its_seed), machin
       const double low = wide(joint.low_rad), high = wide(joint.high_rad);
       at.angle_rad[k] = low + (high - low) * draw(0.3, 0.7);
     }
+    check_inertia(LinkageBody(*linkage_, at), machine);
     tip_m_ = points_of(*linkage_, at).tip.at_m;
   }
   if (seed == 0) return;

@@ -58,6 +58,8 @@ void print_assumed(const std::string& text) {
   if (!keys.empty()) std::printf("assumed, without a source: %s\n", keys.c_str());
 }
 
+bool has_inertia(const Workspace& space) { return space.least_mass_kg > 0 && space.massless == 0; }
+
 void print_space(const Workspace& space, uint32_t joints) {
   const uint32_t none = space.poses - space.with_whole_force - space.with_faded_force;
   std::printf("poses on a grid over the joints' ranges    %u\n", space.poses);
@@ -73,11 +75,18 @@ void print_space(const Workspace& space, uint32_t joints) {
   if (space.with_whole_force > 0)
     std::printf(
         "force in every direction, with whole force %.3g N\n"
-        "longest motion of the tip by a count       %.3g um\n"
+        "longest motion of the tip by a count       %.3g um\n",
+        space.least_force_N, space.count_m * 1e6);
+  if (has_inertia(space))
+    std::printf(
         "least mass of the tip                      %.3g g\n"
         "stiffest wall that is predicted, at 1 kHz   %.0f N/m\n",
-        space.least_force_N, space.count_m * 1e6, space.least_mass_kg * 1e3,
-        stiffest_wall_N_per_m(space, 1e-3));
+        space.least_mass_kg * 1e3, stiffest_wall_N_per_m(space, 1e-3));
+  else if (space.with_whole_force > 0)
+    std::printf(
+        "inertia is not positive definite in        %u poses: its stiffest wall and its cables are "
+        "not checked,\nand no run can simulate it: give each joint a rotor_ or its links masses\n",
+        space.massless);
   std::printf("least reciprocal condition                 %.4f at", space.worst_condition);
   for (uint32_t k = 0; k < joints; ++k) std::printf(" %.1f", space.worst_at_rad[k] * kDegrees);
   std::printf(" deg\n%s\n", is_free_of_singularities(space)
@@ -87,7 +96,7 @@ void print_space(const Workspace& space, uint32_t joints) {
 }
 
 bool is_met(const Workspace& space, const FirmwareCheck& check, const TransmissionCheck& cables) {
-  return is_free_of_singularities(space) && is_good(check) && is_good(cables);
+  return is_free_of_singularities(space) && has_inertia(space) && is_good(check) && is_good(cables);
 }
 
 std::string json_of(const Workspace& space, const FirmwareCheck& check,
@@ -102,8 +111,8 @@ std::string json_of(const Workspace& space, const FirmwareCheck& check,
   all.add("with_faded_force", uint64_t{space.with_faded_force});
   all.add("low_m", point(space.low_m)).add("high_m", point(space.high_m));
   all.add("least_force_N", space.least_force_N).add("count_m", space.count_m);
-  all.add("least_mass_kg", space.least_mass_kg);
-  all.add("stiffest_wall_N_per_m", stiffest_wall_N_per_m(space, 1e-3));
+  all.add("has_inertia", has_inertia(space)).add("least_mass_kg", space.least_mass_kg);
+  if (has_inertia(space)) all.add("stiffest_wall_N_per_m", stiffest_wall_N_per_m(space, 1e-3));
   all.add("least_condition", space.worst_condition);
   all.add("has_singularity", !is_free_of_singularities(space));
   all.add("checked_poses", uint64_t{check.poses}).add("inverse_error_m", check.inverse_m);
@@ -147,8 +156,8 @@ cli::Command device_command() {
       "lines KEY VALUE UNIT.\nLengths: as in firmware/firmtouch/device. Fade by the reciprocal "
       "condition: full_from, gone_at.\nAll keys:\n" +
       tools::device_file_help() + machines() +
-      "Exit code 1: a pose of the ranges is not reachable, singular, or beyond the fade; or a "
-      "figure misses its goal.\n";
+      "Exit code 1: a pose of the ranges is not reachable, singular, beyond the fade, or without "
+      "inertia; or a figure misses its goal.\n";
   return {"device",
           "FILE|MACHINE [options]",
           "checks a linkage's file, prints its workspace, and compares the firmware with its "

@@ -5,6 +5,7 @@
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/device/homing_check.hpp"
+#include "host_sim/device/linkage_body.hpp"
 #include "json/json.hpp"
 
 namespace firmtouch::host_sim {
@@ -39,6 +40,7 @@ std::string json_of(const HomingTally (&tallies)[kHomingCases]) {
 int print_homing(const cli::Arguments& options) {
   const std::string path = options.positionals()[0];
   const tools::LinkageDevice device = tools::read_device(path, tools::read_device_text(path));
+  check_inertia(LinkageBody(device, middle_of(device)), path);
   const uint32_t runs = static_cast<uint32_t>(options.number("--runs", kRuns, kHomingCases));
   HomingTally tallies[kHomingCases];
   const std::function<void(double)> progress = progress_bar("homing");

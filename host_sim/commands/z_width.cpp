@@ -9,6 +9,7 @@
 #include "device/machines.hpp"
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/device/linkage_body.hpp"
 #include "host_sim/device/workspace.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
 #include "json/json.hpp"
@@ -170,14 +171,6 @@ struct DevicePose {
   const char* name;
   tools::JointMotion at;
 };
-
-tools::JointMotion middle_of(const tools::LinkageDevice& device) {
-  tools::JointMotion at;
-  for (uint32_t k = 0; k < device.joints.joints; ++k)
-    at.angle_rad[k] = 0.5 * (static_cast<double>(device.joints.joint[k].low_rad) +
-                             static_cast<double>(device.joints.joint[k].high_rad));
-  return at;
-}
 
 // "30,45,-20", of each joint.
 tools::JointMotion pose_of(const cli::Arguments& options, const device::JointSettings& joints) {

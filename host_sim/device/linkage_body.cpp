@@ -241,12 +241,24 @@ int32_t LinkageBody::count_at(uint32_t joint, double angle_rad) const {
   return static_cast<int32_t>(std::clamp(counts, -2147483647.0, 2147483647.0));
 }
 
-bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion) {
-  motion = {};
+void check_inertia(const LinkageBody& body, const std::string& name) {
+  if (!body.has_inertia())
+    throw tools::Refused(name +
+                         ": its inertia is not positive definite; give each joint a rotor_ or its "
+                         "links masses");
+}
+
+JointMotion middle_of(const LinkageDevice& device) {
+  JointMotion middle;
   for (uint32_t k = 0; k < device.joints.joints; ++k) {
     const device::JointSetting& joint = device.joints.joint[k];
-    motion.angle_rad[k] = 0.5 * (wide(joint.low_rad) + wide(joint.high_rad));
+    middle.angle_rad[k] = 0.5 * (wide(joint.low_rad) + wide(joint.high_rad));
   }
+  return middle;
+}
+
+bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion) {
+  motion = middle_of(device);
   return find_angles_from(device, tip_m, motion);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "device/inertia.hpp"
 #include "host_sim/device/dry_friction.hpp"
 #include "host_sim/plant/vec.hpp"
@@ -102,6 +104,12 @@ class LinkageBody {
   EnergyBook book_;
   uint64_t jams_ = 0;
 };
+
+/// Throws Refused if the linkage `name` cannot be simulated: its inertia is not positive definite.
+void check_inertia(const LinkageBody& body, const std::string& name);
+
+/// Of the ranges of its joints.
+JointMotion middle_of(const LinkageDevice& device);
 
 /// Joint angles that put the tip at `tip_m`, within the ranges of the joints.
 /// Result: false if Newton's method, from the middle of the ranges, finds none within 1e-9 m.

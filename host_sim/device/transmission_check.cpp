@@ -13,16 +13,6 @@ constexpr double kTurn_rad = 6.283185307179586, kStep_s = 1e-5, kMaxTime_s = 60;
 constexpr double kHeld_kg_m2 = 100;  // the rotor of a joint that stays where it is
 constexpr uint32_t kSettling = 40, kPeriods = 20;
 
-JointMotion middle_of(const LinkageDevice& device) {
-  JointMotion at;
-  for (uint32_t k = 0; k < device.joints.joints; ++k) {
-    const device::JointSetting& joint = device.joints.joint[k];
-    at.angle_rad[k] =
-        0.5 * (static_cast<double>(joint.low_rad) + static_cast<double>(joint.high_rad));
-  }
-  return at;
-}
-
 // Without gravity and friction, and with the gap or without.
 LinkageDevice bare(LinkageDevice device, bool has_gap) {
   device.masses.gravity_mps2 = {};

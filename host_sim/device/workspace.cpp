@@ -64,6 +64,7 @@ void add(const LinkageDevice& device, const float (&angle_rad)[device::kMaxJoint
     ++to.with_whole_force;
     add_forces(device, pose, to);
     const tools::TipFigures tip = tools::tip_figures(device, motion_at(angle_rad));
+    to.massless += tip.least_mass_kg > 0 ? 0u : 1u;
     if (tip.least_mass_kg > 0 &&
         (!(to.least_mass_kg > 0) || tip.least_mass_kg < to.least_mass_kg)) {
       to.least_mass_kg = tip.least_mass_kg;

@@ -20,7 +20,8 @@ struct Workspace {
   // Where the whole force is rendered:
   double least_force_N = 0;  // that the torque limits allow in every direction
   double count_m = 0;        // longest motion of the tip by one count
-  double least_mass_kg = 0;  // that the tip has in any direction; 0: the device has no inertia
+  uint32_t massless = 0;     // poses whose inertia is not positive definite
+  double least_mass_kg = 0;  // that the tip has in any direction of the others
   JointMotion lightest_at;   // the pose where it has it
 };
 

@@ -29,10 +29,7 @@ DrivenLinkage linkage_at(const Scenario& scenario, Vec start_m, JointMotion& sta
   if (!linkage.body().is_closed())
     throw Refused(scenario.file +
                   ": at the start the linkage is singular; move `start` or the scene");
-  if (!linkage.body().has_inertia())
-    throw Refused(scenario.device_file +
-                  ": its inertia is not positive definite; give each joint a rotor_ or its links "
-                  "masses");
+  check_inertia(linkage.body(), scenario.device_file);
   return linkage;
 }
 
