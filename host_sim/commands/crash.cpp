@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/live_link.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
@@ -115,7 +116,7 @@ void print_json(const link::CrashReply& reply) {
 
 int read_crash(const cli::Arguments& options) {
   const std::string image = options.text("--image");
-  LiveLink controller(connect_stream(options.positionals()[0]));
+  LiveLink controller(connect_stream(options.positionals()[0], wait_s(options)));
   const link::CrashReply reply = controller.read_crash();
   if (options.has("--json")) {
     print_json(reply);
@@ -139,6 +140,7 @@ cli::Command crash_command() {
       "`crash_record` (hal/PORTING.md); firmtouch_app_hardware of a Cortex-M has it.\n"
       "Exit codes: 0 a record was printed; 1 the last run left none.",
       {{"--image", "FILE.elf", "the program that ran then, for the command that finds the place"},
+       wait_option(),
        {"--json", nullptr, "numbers instead of text"}},
       1,
       1,

@@ -6,6 +6,8 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
+#include "host_sim/commands/progress.hpp"
+#include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/live/live_server.hpp"
 #include "host_sim/report/page_data.hpp"
@@ -22,6 +24,16 @@ void fill(std::string& page, const std::string& place, const std::string& with) 
   page.replace(page.find(place), place.size(), with);
 }
 
+// Rules and their remedies, as a JSON object; 0 stands for all others.
+std::string remedies() {
+  constexpr uint32_t kRules = 1000;
+  tools::Json all;
+  for (uint32_t rule = 0; rule < kRules; ++rule)
+    if (rule == 0 || asset_remedy(rule) != asset_remedy(0))
+      all.add(std::to_string(rule), json_text(asset_remedy(rule)));
+  return all.object();
+}
+
 // The whole page in one text; `asset`: of the part that it shows, or empty.
 std::string live_page(const std::string& asset) {
   std::string scene;
@@ -36,6 +48,7 @@ std::string live_page(const std::string& asset) {
   std::string page = kLiveHtml;
   fill(page, "{{script}}", kLiveJs);
   fill(page, "{{protocol}}", std::to_string(link::kProtocolVersion));
+  fill(page, "{{remedies}}", remedies());
   fill(page, "{{scene}}", scene);
   fill(page, "{{style}}", kLiveCss);
   return page;
@@ -52,7 +65,8 @@ int serve_live(const cli::Arguments& options) {
   const std::string where = options.positionals()[0];
   const double port = options.number("--port", 5678, 1);
   if (!(port <= 65535)) options.refuse("--port: a number up to 65535 is needed");
-  LiveServer server(static_cast<uint16_t>(port), live_page(asset), connect_stream(where));
+  LiveServer server(static_cast<uint16_t>(port), live_page(asset),
+                    connect_stream(where, wait_s(options)));
   std::cerr << "http://127.0.0.1:" << static_cast<int>(port) << "/   (Ctrl-C ends)\n";
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -70,6 +84,7 @@ cli::Command live_command() {
           "The page is served to this machine only. One page holds the link; others wait.",
           {{"--asset", "FILE", "the controller's asset: the page shows its part"},
            {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
+           wait_option(),
            {"--page", "FILE.html",
             "write the page instead, for use over WebSerial without this program"}},
           0,

@@ -5,6 +5,7 @@
 #include "firmtouch/core/crc32.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/progress.hpp"
+#include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/controllers/live_link.hpp"
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/scenario/scenario.hpp"
@@ -31,8 +32,8 @@ std::string problem_of(const link::AssetAck& ack) {
              "debugger";
     case link::kAckAssetRejected:
       return "the controller rejects the asset by rule R" + std::to_string(ack.rule) +
-             " at element " + std::to_string(ack.element) +
-             " (tools/FORMAT.md); the old one stays in use";
+             " at element " + std::to_string(ack.element) + ": " + asset_remedy(ack.rule) +
+             ". The old one stays in use";
     case link::kAckOtherProtocol:
       return "the controller speaks another protocol: build both sides from the same release";
     case link::kAckWrongCrc:
@@ -68,7 +69,7 @@ int load_asset(const cli::Arguments& options) {
   const std::string& path = options.positionals()[0];
   const AssetFile file(path);
   if (!options.has("--unchecked")) Session checked(path);
-  LiveLink controller(connect_stream(options.positionals()[1]));
+  LiveLink controller(connect_stream(options.positionals()[1], wait_s(options)));
   const link::AssetAck ack = load(controller, file.bytes());
   const bool is_loaded = ack.result == link::kAckTaken || ack.result == link::kAckAtRestart;
   std::cerr << path << ": "
@@ -90,7 +91,8 @@ cli::Command load_command() {
       "`asset_slots` (hal/PORTING.md). The motors must be off, and stay off until the asset is in\n"
       "use; then open the enable switch once. A power cut leaves the old asset or the new one.\n"
       "Exit codes: 0 loaded; 1 the controller refused it, and keeps the old one.",
-      {{"--unchecked", nullptr, "send the file as it is: the controller alone proves it"}},
+      {{"--unchecked", nullptr, "send the file as it is: the controller alone proves it"},
+       wait_option()},
       2,
       2,
       load_asset};

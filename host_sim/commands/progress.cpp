@@ -5,7 +5,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host_sim/controllers/answer_time.hpp"
+
 namespace firmtouch::host_sim {
+
+cli::Option wait_option() {
+  return {"--wait", "S", "how long the controller may take to answer (default: 60)"};
+}
+
+double wait_s(const cli::Arguments& options) { return options.number("--wait", kAnswer_s, 0.1); }
 
 std::function<void(double)> progress_bar(const std::string& what) {
   if (isatty(STDERR_FILENO) == 0) return {};

@@ -10,6 +10,7 @@
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/outputs.hpp"
+#include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/asset_file.hpp"
 #include "host_sim/controllers/live_link.hpp"
 #include "host_sim/controllers/session.hpp"
@@ -197,7 +198,7 @@ int record_live(const cli::Arguments& options) {
   const uint32_t decimation = static_cast<uint32_t>(options.number("--decimate", 1, 1));
   check_outputs({{"--asset", asset}}, {{"-o", path}});
 
-  LiveLink controller(connect_stream(where));
+  LiveLink controller(connect_stream(where, wait_s(options)));
   controller.describe();
   std::vector<ParameterRequest> requests = parameter_requests(options, controller);
   controller.begin(decimation);
@@ -263,6 +264,7 @@ cli::Command record_command() {
            {"--asset", "FILE", "the controller's asset; the log then names it for a replay"},
            {"--file-megabytes", "N", "start a new file after N megabytes"},
            {"--keep", "N", "keep the newest N files"},
+           wait_option(),
            {"--json", nullptr, "the summary as JSON on stdout"}},
           1,
           1,

@@ -69,7 +69,7 @@ int replay_log(const cli::Arguments& options) {
   check_scene(session, options.text("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.text("--controller"), options.text("--image"), session.asset.path(),
-                      session.controller->asset_crc(), session.program());
+                      session.controller->asset_crc(), session.program(), wait_s(options));
   const std::string by = port ? port->name() : "in-process";
   const Tick remote = [&](const record::TickInput& input, record::TickOutput& output) {
     port->tick(input, output);
@@ -104,6 +104,7 @@ cli::Command replay_command() {
         "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
        {"--image", "FILE",
         "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       wait_option(),
        {"--json", nullptr, "the answer as JSON on stdout"}},
       1,
       1,

@@ -193,7 +193,7 @@ int run_scenario(const cli::Arguments& options) {
   check_scene(session, options.text("--controller"));
   const std::unique_ptr<LockStepController> port =
       open_controller(options.text("--controller"), options.text("--image"), session.asset.path(),
-                      session.controller->asset_crc(), session.program());
+                      session.controller->asset_crc(), session.program(), wait_s(options));
   read_linkage(scenario, session, file);
   if (options.has("--energy") && !scenario.linkage)
     options.refuse("--energy is of a linkage: name one in the scenario, `device FILE`");
@@ -238,6 +238,7 @@ cli::Command run_command() {
         "                              others are compared with the in-process one, bit for bit"},
        {"--image", "FILE",
         "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+       wait_option(),
        {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"},
        {"--report", "FILE.html",
         "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},

@@ -18,8 +18,6 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr int kWriteTimeout_ms = 20000;
-
 std::string reason() { return std::strerror(errno); }
 
 int connect_unix(const std::string& path) {
@@ -37,7 +35,25 @@ int connect_unix(const std::string& path) {
   throw Refused("unix:" + path + ": " + why + "; is the controller running and listening there?");
 }
 
-int connect_tcp(const std::string& where) {
+// As connect(), but not beyond `time`. Result: false with errno.
+bool connect_in_time(int fd, const addrinfo& to, AnswerTime& time) {
+  const int flags = fcntl(fd, F_GETFL);
+  fcntl(fd, F_SETFL, flags | O_NONBLOCK);
+  int error = connect(fd, to.ai_addr, to.ai_addrlen) == 0 ? 0 : errno;
+  while (error == EINPROGRESS) {
+    pollfd ready{fd, POLLOUT, 0};
+    socklen_t size = sizeof error;
+    if (poll(&ready, 1, time.wait_ms(1000)) > 0)
+      getsockopt(fd, SOL_SOCKET, SO_ERROR, &error, &size);
+    else if (time.is_over())
+      error = ETIMEDOUT;
+  }
+  fcntl(fd, F_SETFL, flags);
+  errno = error;
+  return error == 0;
+}
+
+int connect_tcp(const std::string& where, double wait_s) {
   const size_t colon = where.rfind(':');
   if (colon == std::string::npos) throw Refused("tcp:" + where + ": write tcp:HOST:PORT");
   addrinfo hints{};
@@ -48,10 +64,11 @@ int connect_tcp(const std::string& where) {
   if (status != 0) throw Refused("tcp:" + where + ": " + gai_strerror(status));
   int fd = -1;
   std::string why = "no address";
+  AnswerTime time("tcp:" + where + ": no connection", wait_s);
   for (const addrinfo* a = found; a != nullptr && fd < 0; a = a->ai_next) {
     fd = socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, a->ai_protocol);
-    if (fd < 0 || connect(fd, a->ai_addr, a->ai_addrlen) == 0) continue;
-    why = reason();
+    if (fd < 0 || connect_in_time(fd, *a, time)) continue;
+    why = errno == ETIMEDOUT ? time.text() : reason();
     close(fd);
     fd = -1;
   }
@@ -91,11 +108,22 @@ ByteStream::~ByteStream() {
   if (out_ >= 0 && out_ != in_) close(out_);
 }
 
+std::string ByteStream::why_silent() const {
+  return received_ == 0
+             ? "nothing came: is it powered, does it run firmtouch_app, is this its port?"
+             : std::to_string(received_) +
+                   " bytes came, and no answer: does it run firmtouch_app, and the "
+                   "serial line 1 Mbaud?";
+}
+
 void ByteStream::write(const uint8_t* from, uint32_t count) {
+  AnswerTime time(name_ + ": the controller accepts no bytes", wait_s_);
   while (count > 0) {
     pollfd ready{out_, POLLOUT, 0};
-    if (poll(&ready, 1, kWriteTimeout_ms) == 0)
-      throw Refused(name_ + ": the controller accepts no more bytes; is it halted?");
+    if (poll(&ready, 1, time.wait_ms(1000)) == 0) {
+      if (time.is_over()) throw Refused(time.text() + "; is the controller halted?");
+      continue;
+    }
     const ssize_t sent = ::write(out_, from, count);
     if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (sent <= 0) throw Refused(name_ + ": the controller closed the link" + reason_closed());
@@ -113,18 +141,21 @@ uint32_t ByteStream::read(uint8_t* to, uint32_t capacity, int timeout_ms) {
   const ssize_t got = ::read(in_, to, capacity);
   if (got < 0 && (errno == EINTR || errno == EAGAIN)) return 0;
   if (got <= 0) throw Refused(name_ + ": the controller closed the link" + reason_closed());
+  received_ += static_cast<uint64_t>(got);
   return static_cast<uint32_t>(got);
 }
 
-std::unique_ptr<ByteStream> connect_stream(const std::string& where) {
+std::unique_ptr<ByteStream> connect_stream(const std::string& where, double wait_s) {
   int fd;
   if (where.compare(0, 5, "unix:") == 0)
     fd = connect_unix(where.substr(5));
   else if (where.compare(0, 4, "tcp:") == 0)
-    fd = connect_tcp(where.substr(4));
+    fd = connect_tcp(where.substr(4), wait_s);
   else
     fd = open_serial(where);
-  return std::make_unique<ByteStream>(fd, fd, where);
+  auto stream = std::make_unique<ByteStream>(fd, fd, where);
+  stream->set_wait_s(wait_s);
+  return stream;
 }
 
 }  // namespace firmtouch::host_sim

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "firmtouch/link/handshake.hpp"
+#include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
 namespace firmtouch::host_sim {
@@ -11,7 +11,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int kAgain_ms = 1000;
-constexpr auto kAnswerTime = std::chrono::seconds(60);  // the controller proves its asset first
 constexpr uint16_t kMaxRows = 1024;
 
 }  // namespace
@@ -38,19 +37,23 @@ uint32_t LiveLink::poll(int timeout_ms, const std::function<void(const link::Fra
   return count;
 }
 
-// Sends a request once a second, for 60 s, until `is_reply` accepts a frame.
-// Result: false after that time.
-bool LiveLink::exchange(const std::function<void()>& send_request,
+// Sends a request once a second until `is_reply` accepts a frame. Throws Refused if none comes in
+// the stream's time. `what`: is not answered.
+void LiveLink::exchange(const char* what, const std::function<void()>& send_request,
                         const std::function<bool(const link::Frame&)>& is_reply) {
-  for (const auto begin = Clock::now(); Clock::now() - begin < kAnswerTime;) {
+  AnswerTime time(stream_->name() + ": no answer to " + what, stream_->wait_s());
+  while (!time.is_over()) {
     send_request();
     bool received = false;
     for (const auto sent = Clock::now();
-         !received && Clock::now() - sent < std::chrono::milliseconds(kAgain_ms);)
-      poll(kAgain_ms, [&](const link::Frame& frame) { received |= is_reply(frame); });
-    if (received) return true;
+         !received && !time.is_over() &&
+         Clock::now() - sent < std::chrono::milliseconds(kAgain_ms);)
+      poll(time.wait_ms(kAgain_ms), [&](const link::Frame& frame) { received |= is_reply(frame); });
+    if (received) return;
   }
-  return false;
+  throw Refused(time.text() + "; " +
+                (is_proving_ ? "the controller is still checking its asset: wait longer"
+                             : stream_->why_silent()));
 }
 
 link::Description LiveLink::row(uint16_t what, uint16_t index) {
@@ -58,20 +61,17 @@ link::Description LiveLink::row(uint16_t what, uint16_t index) {
   query.what = what;
   query.index = index;
   link::Description row;
-  const bool received =
-      exchange([&] { send(link::kDescribe, query); },
-               [&](const link::Frame& frame) {
-                 link::Description reply;
-                 if (frame.type == link::kText)
-                   refuse("the controller does not describe its records: it is of another release");
-                 if (frame.type != link::kDescription || !link::take(frame, reply)) return false;
-                 if (reply.what != what || reply.index != index) return false;
-                 row = reply;
-                 return true;
-               });
-  if (!received)
-    refuse(
-        "no answer in 60 s; does the controller run firmtouch_app, and the serial line 1 Mbaud?");
+  exchange(
+      "a query of its records", [&] { send(link::kDescribe, query); },
+      [&](const link::Frame& frame) {
+        link::Description reply;
+        if (frame.type == link::kText)
+          refuse("the controller does not describe its records: it is of another release");
+        if (frame.type != link::kDescription || !link::take(frame, reply)) return false;
+        if (reply.what != what || reply.index != index) return false;
+        row = reply;
+        return true;
+      });
   return row;
 }
 
@@ -101,14 +101,13 @@ void LiveLink::describe() {
 
 link::CrashReply LiveLink::read_crash() {
   link::CrashReply reply;
-  const bool received = exchange(
-      [&] { send(link::kReadCrash, link::ReadCrash{}); },
+  exchange(
+      "a query of its last crash", [&] { send(link::kReadCrash, link::ReadCrash{}); },
       [&](const link::Frame& frame) {
         if (frame.type == link::kText)
           refuse("the controller keeps no crash record: build it with part `crash_record`");
         return frame.type == link::kCrashReply && link::take(frame, reply);
       });
-  if (!received) refuse("no answer in 60 s");
   return reply;
 }
 
@@ -118,16 +117,15 @@ template <class T>
 link::AssetAck LiveLink::update(uint8_t type, const T& payload) {
   link::AssetAck ack;
   const uint16_t before = sequence_;
-  const bool received =
-      exchange([&] { send(type, payload); },
-               [&](const link::Frame& frame) {
-                 if (frame.type == link::kText)
-                   refuse("the controller takes no assets: build it with part `asset_slots`");
-                 const uint16_t sent = sequence_ - before, back = frame.sequence - before;
-                 const bool is_ours = back > 0 && back <= sent;
-                 return is_ours && frame.type == link::kAssetAck && link::take(frame, ack);
-               });
-  if (!received) refuse("no answer in 60 s");
+  exchange(
+      "an update of its asset", [&] { send(type, payload); },
+      [&](const link::Frame& frame) {
+        if (frame.type == link::kText)
+          refuse("the controller takes no assets: build it with part `asset_slots`");
+        const uint16_t sent = sequence_ - before, back = frame.sequence - before;
+        const bool is_ours = back > 0 && back <= sent;
+        return is_ours && frame.type == link::kAssetAck && link::take(frame, ack);
+      });
   return ack;
 }
 
@@ -148,14 +146,13 @@ link::AssetAck LiveLink::commit_asset() { return update(link::kCommitAsset, link
 // Result: the controller's reply, after it has proven its asset.
 link::HelloReply LiveLink::hello(const link::Hello& hello) {
   link::HelloReply reply;
-  const bool received = exchange([&] { send(link::kHello, hello); },
-                                 [&](const link::Frame& frame) {
-                                   return frame.type == link::kHelloReply &&
-                                          link::take(frame, reply) &&
-                                          (reply.refused & link::kRefusedNotReady) == 0;
-                                 });
-  if (!received)
-    refuse("no answer to the handshake in 60 s; does the controller run firmtouch_app?");
+  exchange(
+      "the handshake", [&] { send(link::kHello, hello); },
+      [&](const link::Frame& frame) {
+        if (frame.type != link::kHelloReply || !link::take(frame, reply)) return false;
+        is_proving_ = (reply.refused & link::kRefusedNotReady) != 0;
+        return !is_proving_;
+      });
   return reply;
 }
 
@@ -163,11 +160,8 @@ void LiveLink::begin(uint32_t decimation) {
   link::Hello first;
   first.mode = link::kModeIdentify;
   reply_ = hello(first);
-  if ((reply_.refused & (link::kRefusedProtocol | link::kRefusedAssetRejected)) != 0) {
-    char text[1200];
-    const uint32_t count = link::explain(first.host, reply_, text);
-    refuse("the controller rejects the session:\n" + std::string(text, count));
-  }
+  if ((reply_.refused & (link::kRefusedProtocol | link::kRefusedAssetRejected)) != 0)
+    refuse("the controller rejects the session:\n" + refusal_text(first.host, reply_));
   link::Hello second;
   second.host = reply_.controller;
   second.decimation = decimation;

@@ -46,7 +46,7 @@ class LiveLink {
  private:
   template <class T>
   void send(uint8_t type, const T& payload);
-  bool exchange(const std::function<void()>& send_request,
+  void exchange(const char* what, const std::function<void()>& send_request,
                 const std::function<bool(const link::Frame&)>& is_reply);
   link::Description row(uint16_t what, uint16_t index);
   template <class T>
@@ -60,6 +60,7 @@ class LiveLink {
   log::Header header_;
   std::vector<link::Description> parameters_;
   uint16_t sequence_ = 0;
+  bool is_proving_ = false;  // the controller, its asset
 };
 
 /// Text of a fixed-size field, with or without a final zero.

@@ -31,10 +31,12 @@ inline bool is_in_process(const std::string& controller) {
 /// Opens the controller that --controller names: unix:PATH, tcp:HOST:PORT, qemu:BOARD or a serial
 /// DEVICE; nullptr for inproc. `image`: the program for qemu:BOARD; empty: that of the board's own
 /// build, with part `objects` if the asset has them. `asset_crc`: Controller::asset_crc(). Throws
-/// Refused if it cannot be opened, or if asset, parameter table or protocol differ.
+/// Refused if it cannot be opened, does not answer within `wait_s`, or if asset, parameter table or
+/// protocol differ.
 std::unique_ptr<LockStepController> open_controller(const std::string& controller,
                                                     const std::string& image,
                                                     const std::string& asset_path,
-                                                    uint32_t asset_crc, const std::string& program);
+                                                    uint32_t asset_crc, const std::string& program,
+                                                    double wait_s);
 
 }  // namespace firmtouch::host_sim

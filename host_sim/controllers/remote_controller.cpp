@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -6,9 +5,9 @@
 
 #include "firmtouch/link/build_id.hpp"
 #include "firmtouch/link/decoder.hpp"
-#include "firmtouch/link/handshake.hpp"
 #include "firmtouch/link/protocol.hpp"
 #include "firmtouch/params/table.hpp"
+#include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/controllers/byte_stream.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/scenario/scenario.hpp"
@@ -16,11 +15,7 @@
 namespace firmtouch::host_sim {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr int kHelloAgain_ms = 1000;  // a Hello is lost if the controller is still starting
-// Long: an emulated board proves an asset of megabytes before it answers.
-constexpr auto kHandshakeTime = std::chrono::seconds(60);
-constexpr int kReplyTime_ms = 20000;
 
 class Remote : public LockStepController {
  public:
@@ -81,23 +76,22 @@ void Remote::handshake(uint32_t asset_crc) {
   hello.host.build_id = link::build_id();
   hello.mode = link::kModeLockStep;
   link::HelloReply reply;
-  for (const auto begin = Clock::now();;) {
-    if (Clock::now() - begin > kHandshakeTime)
-      refuse(
-          "no answer to the handshake in 60 s; does the controller run firmtouch_app, and the "
-          "serial line 1 Mbaud?");
+  AnswerTime time(stream_->name() + ": no answer to the handshake", stream_->wait_s());
+  for (bool is_ready = false; !is_ready;) {
+    if (time.is_over())
+      throw Refused(time.text() + "; " +
+                    ((reply.refused & link::kRefusedNotReady) != 0
+                         ? "the controller is still checking its asset: wait longer"
+                         : stream_->why_silent()));
     send(link::kHello, link::bytes_of(hello));
     link::Frame frame;
     bool replied = false;
-    while (!replied && receive(frame, kHelloAgain_ms))
+    while (!replied && receive(frame, time.wait_ms(kHelloAgain_ms)))
       replied = frame.type == link::kHelloReply && link::take(frame, reply);
-    if (replied && (reply.refused & link::kRefusedNotReady) == 0) break;
+    is_ready = replied && (reply.refused & link::kRefusedNotReady) == 0;
   }
-  if (reply.refused != 0) {
-    char text[1200];
-    const uint32_t count = link::explain(hello.host, reply, core::Span<char>(text, sizeof text));
-    refuse("the controller rejects the session:\n" + std::string(text, count));
-  }
+  if (reply.refused != 0)
+    refuse("the controller rejects the session:\n" + refusal_text(hello.host, reply));
   board_ = std::string(reply.board, strnlen(reply.board, sizeof reply.board));
 }
 
@@ -106,8 +100,11 @@ TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output
   step.input = input;
   send(link::kStep, link::bytes_of(step));
   link::Frame frame;
-  while (receive(frame, kReplyTime_ms)) {
+  AnswerTime time(stream_->name() + ": no answer to tick " + std::to_string(input.tick),
+                  stream_->wait_s());
+  while (!time.is_over()) {
     link::StepReply reply;
+    if (!receive(frame, time.wait_ms(kHelloAgain_ms))) continue;
     if (frame.type == link::kText)
       refuse(
           "tick " + std::to_string(input.tick) + ": " +
@@ -122,8 +119,7 @@ TickCost Remote::tick(const record::TickInput& input, record::TickOutput& output
     cost.stack_high_bytes = reply.stack_high_bytes;
     return cost;
   }
-  refuse("no answer to tick " + std::to_string(input.tick) + " in " +
-         std::to_string(kReplyTime_ms / 1000) + " s");
+  throw Refused(time.text() + "; has it halted, or was its cable pulled?");
 }
 
 // build/<board>/bin/<program>.elf, next to this program's build/host/bin.
@@ -139,16 +135,16 @@ std::string image_of(const std::string& board, const std::string& program) {
 std::unique_ptr<LockStepController> open_controller(const std::string& controller,
                                                     const std::string& image,
                                                     const std::string& asset_path,
-                                                    uint32_t asset_crc,
-                                                    const std::string& program) {
+                                                    uint32_t asset_crc, const std::string& program,
+                                                    double wait_s) {
   if (is_in_process(controller)) return nullptr;
-  if (controller.compare(0, 5, "qemu:") == 0) {
-    const std::string board = controller.substr(5);
-    return std::make_unique<Remote>(
-        start_emulator(board, image.empty() ? image_of(board, program) : image, asset_path),
-        asset_crc);
-  }
-  return std::make_unique<Remote>(connect_stream(controller), asset_crc);
+  if (controller.compare(0, 5, "qemu:") != 0)
+    return std::make_unique<Remote>(connect_stream(controller, wait_s), asset_crc);
+  const std::string board = controller.substr(5);
+  std::unique_ptr<ByteStream> emulator =
+      start_emulator(board, image.empty() ? image_of(board, program) : image, asset_path);
+  emulator->set_wait_s(wait_s);
+  return std::make_unique<Remote>(std::move(emulator), asset_crc);
 }
 
 }  // namespace firmtouch::host_sim

@@ -5,30 +5,11 @@
 
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/controller/needed_parts.hpp"
+#include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
-
-std::string remedy_of(uint16_t rule) {
-  switch (rule) {
-    case kRuleEmptyScene:
-      return "it has neither a surface nor a guide; bake one into it";
-    case kRuleNeedsObjects:
-      return "it has several objects, which this controller does not touch; name one of its meshes";
-    case kRuleArithmetic:
-      return "this machine's floating-point mode differs from what the library needs";
-    case kRuleMeshProbes:
-    case kRuleCurveProbes:
-    case kRuleSplineProbes:
-    case kRuleHullProbes:
-      return "this program answers the asset's probe queries with other bits; bake it with the "
-             "same "
-             "version";
-    default:
-      return "it is damaged or of another version; bake it again";
-  }
-}
 
 std::string text_or_empty(const char* text) { return text == nullptr ? "" : text; }
 const char* text_or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
@@ -63,10 +44,15 @@ void check_name(const std::string& path, const std::vector<SceneEntry>& entries,
                 (list.empty() ? "; it has no " + kind + " at all" : "; it has: " + list));
 }
 
-void check_verdict(const std::string& path, core::Verdict verdict) {
+// The simulator's own controller has every part.
+void check_verdict(const std::string& path, core::Verdict verdict, bool is_penalty = false) {
   if (verdict.ok()) return;
+  const uint32_t part = verdict.rule - uint32_t{kRuleNeedsMesh};
   throw Refused(path + ": rejected by rule R" + std::to_string(verdict.rule) + " at element " +
-                std::to_string(verdict.element) + ": " + remedy_of(verdict.rule));
+                std::to_string(verdict.element) + ": " +
+                (is_penalty && part < kPartCount ? std::string("penalty contact has no part `") +
+                                                       part_name(part) + "`; leave out --penalty"
+                                                 : asset_remedy(verdict.rule)));
 }
 
 }  // namespace
@@ -89,7 +75,7 @@ Session::Session(const std::string& asset_path, SceneNames wanted_names, Contact
     penalty = std::make_unique<PenaltyController>();
     verdict = penalty->open(asset.bytes(), selection);
   }
-  check_verdict(asset_path, verdict);
+  check_verdict(asset_path, verdict, penalty != nullptr);
   list_unused(scene_entries(container));
 }
 

@@ -1,6 +1,7 @@
 'use strict';
 // The link: frames and messages as in firmware/firmtouch/link/frame.hpp and protocol.hpp.
 const kProtocol = {{protocol}}, kMaxPayload = 244;  // the number is put in with the page
+const kRemedies = {{remedies}};  // of rules; '0': of any other
 const kHello = 1, kSetParam = 3, kBye = 4, kClearFaults = 5, kStream = 6, kDescribe = 7, kPanel = 9;
 const kHelloReply = 0x81, kAck = 0x83, kLog = 0x84, kText = 0x85, kDescription = 0x86;
 const kModeLive = 0, kModeIdentify = 0xFFFFFFFF, kCommandClearFaults = 0xFFFFFFFF;
@@ -160,7 +161,7 @@ class Session {
       throw new Error(`the controller speaks protocol ${about.protocol}, this page ${kProtocol}: take both from the same release`);
     }
     if (about.refused & kAssetRejected) {
-      throw new Error(`the controller rejects its asset by rule R${about.rule} at element ${about.element}: bake and load it again`);
+      throw new Error(`the controller rejects its asset by rule R${about.rule} at element ${about.element}: ${kRemedies[about.rule] || kRemedies[0]}`);
     }
     this.about = about;
     this.fields = await this.describe(0, 'records');
@@ -211,6 +212,7 @@ class Session {
       const found = await answer;
       clearTimeout(late);
       if (found !== null) return found;
+      if (!this.live) this.ui.say('warn', `No answer for ${2 ** (i + 1) - 1} s; waiting until ${2 ** tries - 1} s are over. Is it powered, and is this the controller program?`);
     }
     throw new NoAnswer('no answer; is this the controller program, and the line at 1 Mbaud?');
   }

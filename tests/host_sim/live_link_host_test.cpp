@@ -3,10 +3,15 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <thread>
 
+#include "firmtouch/asset/loading.hpp"
+#include "firmtouch/controller/needed_parts.hpp"
 #include "firmtouch/link/frame.hpp"
 #include "harness/test.hpp"
+#include "host_sim/controllers/asset_remedy.hpp"
+#include "host_sim/scenario/scenario.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -35,7 +40,66 @@ void answer_late(int file) {
   }
 }
 
+// A controller that receives, and sends what `answer` makes of the first frame.
+std::string said_after(double wait_s, const std::vector<uint8_t>& answer) {
+  int ends[2];
+  CHECK_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  if (!answer.empty()) (void)send(ends[1], answer.data(), answer.size(), MSG_NOSIGNAL);
+  auto stream = std::make_unique<ByteStream>(ends[0], dup(ends[0]), "silent");
+  stream->set_wait_s(wait_s);
+  LiveLink link(std::move(stream));
+  std::string said;
+  try {
+    link.begin(1);
+  } catch (const Refused& refused) {
+    said = refused.what();
+  }
+  close(ends[1]);
+  return said;
+}
+
+std::vector<uint8_t> hello_reply(uint32_t refused, uint32_t rule) {
+  link::HelloReply reply;
+  reply.refused = refused;
+  reply.asset_rule = rule;
+  uint8_t bytes[link::kMaxFrameBytes];
+  const uint32_t count = link::encode(link::kHelloReply, 1, link::bytes_of(reply), bytes);
+  return {bytes, bytes + count};
+}
+
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
 }  // namespace
+
+TEST(LiveLink_ControllerThatDoesNotAnswer_IsReportedInItsTimeWithWhatCame) {
+  const auto begin = std::chrono::steady_clock::now();
+  CHECK(said_after(0.3, {}) ==
+        "silent: no answer to the handshake in 0.3 s (--wait S); nothing came: is it powered, "
+        "does it run firmtouch_app, is this its port?");
+  const auto passed = std::chrono::steady_clock::now() - begin;
+  CHECK(passed >= std::chrono::milliseconds(300) && passed < std::chrono::seconds(3));
+  CHECK(contains(said_after(0.1, std::vector<uint8_t>(7, 0xA5)),
+                 "in 0.1 s (--wait S); 7 bytes came, and no answer"));
+  CHECK(contains(said_after(0.1, hello_reply(link::kRefusedNotReady, 0)),
+                 "the controller is still checking its asset: wait longer"));
+}
+
+TEST(AssetRemedy_EveryRuleOfTheController_SaysWhatToDo) {
+  for (uint32_t part = 0; part < kPartCount; ++part) {
+    const std::string said =
+        said_after(60, hello_reply(link::kRefusedAssetRejected, kRuleNeedsMesh + part));
+    CHECK(contains(said, ("by rule R" + std::to_string(909 + part)).c_str()));
+    CHECK(contains(said, (std::string("it needs part `") + part_name(part) + "`,").c_str()));
+    CHECK(contains(said, "build the program with it (FIRMTOUCH_APP), and flash it"));
+    CHECK(!contains(said, "bake"));
+  }
+  for (uint32_t rule = kRuleNoSuchSurface; rule < kRuleNeedsMesh; ++rule)
+    CHECK(asset_remedy(rule) != asset_remedy(0));
+  CHECK(contains(said_after(60, hello_reply(link::kRefusedAssetRejected, 201)),
+                 "asset: it is damaged or of another release; bake it again"));
+}
 
 TEST(LiveLink_SecondAnswerToARepeatedRequest_IsNoneToTheNext) {
   int ends[2];

@@ -36,7 +36,7 @@ uint32_t explain(const Identity& host, const HelloReply& reply, core::Span<char>
   if ((reply.refused & kRefusedAssetRejected) != 0) {
     out.text("asset: the controller rejects it by rule R").decimal(reply.asset_rule);
     out.text(" at element ").decimal(reply.asset_element);
-    out.text(" (tools/FORMAT.md): bake and load it again\n");
+    out.text(" (tools/FORMAT.md)\n");
   }
   if ((reply.refused & kRefusedAsset) != 0) {
     add_difference(out, "asset CRC", host.asset_crc, controller.asset_crc, 8,

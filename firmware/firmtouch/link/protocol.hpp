@@ -82,7 +82,7 @@ constexpr uint32_t kRefusedAsset = 1u << 1;
 constexpr uint32_t kRefusedParameterTable = 1u << 2;
 constexpr uint32_t kRefusedBuild = 1u << 3;
 constexpr uint32_t kRefusedMode = 1u << 4;           // unknown mode
-constexpr uint32_t kRefusedAssetRejected = 1u << 5;  // by asset_rule: bake it again
+constexpr uint32_t kRefusedAssetRejected = 1u << 5;  // by asset_rule
 constexpr uint32_t kRefusedNotReady = 1u << 6;       // the asset is still being checked: try again
 constexpr uint32_t kRefusedBusy = 1u << 7;           // lock-step: the servo's timer already runs
 
