@@ -257,6 +257,16 @@ JointMotion middle_of(const LinkageDevice& device) {
   return middle;
 }
 
+double reciprocal_condition(const LinkageDevice& device, const JointMotion& at) {
+  float angle_rad[kJoints];
+  for (uint32_t k = 0; k < kJoints; ++k) angle_rad[k] = static_cast<float>(at.angle_rad[k]);
+  return std::visit(
+      [&](const auto& linkage) {
+        return wide(device::pose_of(linkage, angle_rad).reciprocal_condition);
+      },
+      device.linkage);
+}
+
 bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion) {
   motion = middle_of(device);
   return find_angles_from(device, tip_m, motion);

@@ -111,6 +111,9 @@ void check_inertia(const LinkageBody& body, const std::string& name);
 /// Of the ranges of its joints.
 JointMotion middle_of(const LinkageDevice& device);
 
+/// Of its Jacobian, as the firmware computes it.
+double reciprocal_condition(const LinkageDevice& device, const JointMotion& at);
+
 /// Joint angles that put the tip at `tip_m`, within the ranges of the joints.
 /// Result: false if Newton's method, from the middle of the ranges, finds none within 1e-9 m.
 bool find_angles(const LinkageDevice& device, Vec tip_m, JointMotion& motion);

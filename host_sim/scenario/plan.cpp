@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "device/line_reader.hpp"
+#include "host_sim/device/linkage_body.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -61,14 +62,29 @@ Vec outward(const Environment& environment, Vec p, const Box& box) {
                                    : unit(p - (box.low + box.high) * 0.5);
 }
 
+// Whether a linkage has its whole force all along the guide.
+bool reaches_guide(const Environment& environment, const PlannedDevice& device) {
+  if (device.linkage == nullptr) return true;
+  JointMotion at = middle_of(*device.linkage);
+  for (Vec p : environment.guide_m()) {
+    if (device.is_planar()) p.z = 0;
+    if (!find_angles_from(*device.linkage, p, at) ||
+        reciprocal_condition(*device.linkage, at) <
+            static_cast<double>(device.linkage->limits.full_from))
+      return false;
+  }
+  return true;
+}
+
 // Speed and duration of following the guide; all zero if there is none.
 struct GuideRun {
   double speed_mps = 0, time_s = 0, approach_s = 0;
   Vec end;
 };
 
-GuideRun plan_guide_run(const Environment& environment, Vec start, double diagonal) {
-  if (!environment.has_guide()) return {0, 0, 0, start};
+GuideRun plan_guide_run(const Environment& environment, Vec start, double diagonal,
+                        bool is_followed) {
+  if (!is_followed) return {0, 0, 0, start};
   const double length = environment.guide_length_m();
   GuideRun run;
   run.speed_mps = std::min({length / kRoundTime_s, kMaxSpeed * diagonal, kMaxSpeed_mps});
@@ -78,18 +94,28 @@ GuideRun plan_guide_run(const Environment& environment, Vec start, double diagon
   return run;
 }
 
-void add_setting(TextLines& out, const Environment& environment, const Box& box, double diagonal,
-                 double tool_m) {
+void add_axes(TextLines& out, const Box& box, double diagonal) {
   const Vec middle = (box.low + box.high) * 0.5;
   const Vec half = {std::max(0.5, (box.high.x - box.low.x) + diagonal),
                     std::max(0.5, (box.high.y - box.low.y) + diagonal),
                     std::max(0.5, (box.high.z - box.low.z) + diagonal)};
-  out.add("rate 1000 Hz\n\n# the device");
   out.add("mass 0.075 kg\nviscous_friction 0.5 N*s/m\ncoulomb_friction 0.02 N");
   out.add("encoder_quantum 10 um\nmotor_limit 12 N");
   out.add("origin_x %.5g m\norigin_y %.5g m\norigin_z %.5g m", middle.x, middle.y, middle.z);
   out.add("workspace_half_x %.4g m\nworkspace_half_y %.4g m\nworkspace_half_z %.4g m", half.x,
           half.y, half.z);
+}
+
+void add_setting(TextLines& out, const Environment& environment, const Box& box, double diagonal,
+                 double tool_m, const PlannedDevice& device) {
+  out.add("rate 1000 Hz\n\n# the device");
+  if (device.linkage == nullptr) {
+    add_axes(out, box, diagonal);
+  } else {  // the start is at the middle of its joints' ranges
+    const Vec origin = environment.origin_m();
+    out.line("device " + tools::path_word(device.file));
+    out.add("scene_x %.6g m\nscene_y %.6g m\nscene_z %.6g m", origin.x, origin.y, origin.z);
+  }
   out.add("\n# the surface and the guide\ntool_radius %.4g mm", tool_m * 1e3);
   out.add("contact_stiffness 1200 N/m\nguide_stiffness 400 N/m");
   if (environment.has_surface() && !environment.has_mesh()) {
@@ -117,31 +143,45 @@ double diagonal_m(const Environment& environment) {
   return norm(box.high - box.low);
 }
 
-std::string plan_scenario(const Environment& environment, const std::string& asset) {
+Vec planned_start_m(const Environment& environment, const PlannedDevice& device) {
+  const Box box = box_of(environment);
+  const double hover = kHover * norm(box.high - box.low);
+  const Vec middle = (box.low + box.high) * 0.5;
+  const Vec away = device.is_planar() ? Vec{0, -1, 0} : Vec{0, 0, 1};
+  const Vec beside = device.is_planar() ? Vec{middle.x, box.low.y - hover, middle.z}
+                                        : Vec{middle.x, middle.y, box.high.z + hover};
+  const Vec first = environment.has_guide()     ? environment.guide_at(0)
+                    : environment.has_surface() ? environment.nearest(beside).point_m
+                                                : beside;
+  Vec out = outward(environment, first, box);
+  if (device.is_planar()) out = unit(Vec{out.x, out.y, 0} + away * 1e-9);
+  return first + out * hover;
+}
+
+std::string plan_scenario(const Environment& environment, const std::string& asset,
+                          const PlannedDevice& device) {
   const Box box = box_of(environment);
   const double diagonal = norm(box.high - box.low);
   const double tool = std::min(kToolRadius * diagonal, kMaxToolRadius_m);
   const double deep = std::min(kPressDeep * diagonal, kMaxPress_m);
-  const Vec middle = (box.low + box.high) * 0.5;
-  const Vec top = {middle.x, middle.y, box.high.z + kHover * diagonal};
-  const Vec first = environment.has_guide()     ? environment.guide_at(0)
-                    : environment.has_surface() ? environment.nearest(top).point_m
-                                                : top;
-  const Vec start = first + outward(environment, first, box) * (kHover * diagonal);
-  const GuideRun run = plan_guide_run(environment, start, diagonal);
+  const Vec start = planned_start_m(environment, device);
+  const bool is_followed = environment.has_guide() && reaches_guide(environment, device);
+  const GuideRun run = plan_guide_run(environment, start, diagonal, is_followed);
   TextLines out;
   out.line(
       "# A hand touches the asset. Written by `firmtouch-sim scenario` from the bounding box.");
   out.line("asset " + tools::path_word(asset));
-  add_setting(out, environment, box, diagonal, tool);
+  add_setting(out, environment, box, diagonal, tool, device);
   out.add("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
   out.add("start %.6g %.6g %.6g m\nhold for %.4g s", start.x, start.y, start.z, kHold_s);
   if (environment.has_surface())
     add_press(out, environment, start, tool, 1.3 * deep, kFirstPress_s);
-  if (environment.has_guide())
+  if (is_followed)
     out.add("follow guide at %.4g mm/s for %.4g s", run.speed_mps * 1e3, run.time_s);
+  else if (environment.has_guide())
+    out.add("# not followed: the linkage does not reach the whole guide with its whole force");
   if (!environment.has_surface()) return out.text();
-  if (environment.has_guide())
+  if (is_followed)
     out.add("follow guide at %.4g mm/s for %.4g s pressing %.4g mm", run.speed_mps * 1e3,
             run.time_s, deep * 1e3);
   add_press(out, environment, run.end, tool, deep, kLastPress_s);

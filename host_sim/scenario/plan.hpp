@@ -2,13 +2,27 @@
 #include <string>
 #include <vector>
 
+#include "device/device_file.hpp"
 #include "host_sim/plant/environment.hpp"
 
 namespace firmtouch::host_sim {
 
+/// The linkage that a planned hand moves; none: straight axes.
+struct PlannedDevice {
+  std::string file;  // as the scenario names it
+  const tools::LinkageDevice* linkage = nullptr;
+  bool is_planar() const { return linkage != nullptr && linkage->joints.joints == 2; }
+};
+
+/// Where a planned hand begins: above the guide's start or the surface, of a planar linkage before
+/// it in its plane.
+Vec planned_start_m(const Environment& environment, const PlannedDevice& device);
+
 /// Text of a scenario scaled to the asset: press on the surface, follow the guide once without and
-/// once with pressing, emergency stop in contact. `asset`: path to write into the scenario.
-std::string plan_scenario(const Environment& environment, const std::string& asset);
+/// once with pressing, if a linkage reaches it, emergency stop in contact. `asset`: path to write
+/// into the scenario.
+std::string plan_scenario(const Environment& environment, const std::string& asset,
+                          const PlannedDevice& device = {});
 
 /// A closed line around the mesh, to be baked as a guide: the longest loop in which the mid plane
 /// across the bounding box's shortest side cuts the mesh, raised by `height_m`.
