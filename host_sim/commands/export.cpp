@@ -2,13 +2,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <optional>
 
-#include "device/machines.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/commands/logged_session.hpp"
-#include "host_sim/commands/prepare.hpp"
 #include "host_sim/commands/progress.hpp"
+#include "host_sim/device/drawn_links.hpp"
 #include "host_sim/report/vtk_export.hpp"
 #include "host_sim/trace/run.hpp"
 
@@ -21,30 +19,6 @@ constexpr double kPictures_Hz = 60;
 
 double parameter_in(const Log& log, const char* name) {
   return std::strtod(entry_or_empty(log, std::string("parameter.") + name).c_str(), nullptr);
-}
-
-// The linkage that the asset stores; its links need the device file.
-std::optional<tools::LinkageDevice> linkage_of(const cli::Arguments& options,
-                                               const std::string& path, const Log& log,
-                                               const Session& session) {
-  Scenario scenario;
-  if (const std::string text = entry_or_empty(log, "scenario"); !text.empty())
-    scenario = read_scenario(path, text, {}, parameter_rows());
-  if (const std::string named = options.text("--device"); !named.empty())
-    scenario.device_file =
-        tools::machine_text(named).empty() ? fs::absolute(named).string() : named;
-  if (scenario.device_file.empty()) {
-    if (session.controller->linkage().is_open())
-      std::fprintf(stderr, "%s: it does not name the linkage: give --device to export its links\n",
-                   path.c_str());
-    return {};
-  }
-  try {
-    read_linkage(scenario, session, path);
-  } catch (const Refused& refused) {
-    throw Refused(std::string(refused.what()) + " (the device file: --device FILE)");
-  }
-  return scenario.linkage;
 }
 
 // A folder that gets its name when all in it is written.
@@ -84,7 +58,6 @@ int export_log(const cli::Arguments& options) {
   const std::unique_ptr<Session> session = session_of(path, log, options.text("--asset"));
   if (log.decimation != 1 && !session->objects.empty())
     throw Refused(path + ": it lacks ticks in which objects move; record with --decimate 1");
-  const std::optional<tools::LinkageDevice> linkage = linkage_of(options, path, log, *session);
   const Environment environment = environment_of(
       *session->controller, {parameter_in(log, "scene_x_m"), parameter_in(log, "scene_y_m"),
                              parameter_in(log, "scene_z_m")});
@@ -95,7 +68,8 @@ int export_log(const cli::Arguments& options) {
   what.every = static_cast<uint32_t>(
       options.number("--every", std::max(1.0, std::round(records_Hz / kPictures_Hz)), 1));
   what.tool_radius_m = static_cast<float>(parameter_in(log, "tool_radius_m"));
-  what.linkage = linkage ? &*linkage : nullptr;
+  const device::StoredLinkage& linkage = session->controller->linkage();
+  if (linkage.is_open()) what.linkage = kinematics_of(linkage);
   NewFolder folder(to);
   const uint32_t ticks =
       export_vtk(log, environment, what, folder.partial(), progress_bar("exporting"));
@@ -121,8 +95,7 @@ cli::Command export_command() {
       "The folder is made, whole or not at all. Exit code 1: the log is damaged, and\nwhat is "
       "before that is exported.",
       {{"--every", "N", "every Nth tick of the log (default: 60 in a second)"},
-       {"--asset", "FILE", "the asset, if it is not at the path in the log"},
-       {"--device", "FILE", "the linkage's file or name, if it is not as in the log"}},
+       {"--asset", "FILE", "the asset, if it is not at the path in the log"}},
       2,
       2,
       export_log};

@@ -6,6 +6,9 @@ const report = (() => {
   const device = View3d.vectors(samples.device, 4), force = View3d.vectors(samples.force, 1);
   const turn = samples.turn ? View3d.vectors(samples.turn, 2 * Math.PI) : [];
   const stage = new View3d($('stage'), data, ['tool', 'hand']);
+  // Joints of a linkage, a sample after the other: base and elbow of each chain, which ends at the tool.
+  const joints = samples.joints ? View3d.vectors(samples.joints, 4) : [], each = joints.length / device.length;
+  if (each) stage.makeRoom(joints);
   const kArrow = 0.6;  // radii of the largest force
   const name = document.title.split(' - ')[0];
   let charts = [], queued = false, playing = null;
@@ -15,7 +18,9 @@ const report = (() => {
   function changed(isWindow) {
     const at = time.cursor / samples.step_s, i = Math.max(samples.first, Math.min(device.length - 1, Math.floor(at)));
     const next = Math.min(device.length - 1, i + 1), share = Math.max(0, Math.min(1, at - i));
-    stage.setTool(device[i].map((v, k) => v + (device[next][k] - v) * share), force[i].map(v => v * kArrow), turn[i]);
+    const between = (list, a, b) => list[a].map((v, k) => v + (list[b][k] - v) * share), tool = between(device, i, next), links = [];
+    for (let k = 0; k < each; k += 2) links.push(between(joints, i * each + k, next * each + k), between(joints, i * each + k + 1, next * each + k + 1), tool, null);
+    stage.setTool(tool, force[i].map(v => v * kArrow), turn[i], links);
     const newton = Math.hypot(...force[i]) * samples.peak_N;
     $('clock').textContent = `${time.cursor.toFixed(3)} s`;
     document.querySelector('.stage .now').textContent = `at ${time.cursor.toFixed(3)} s, force ${newton.toFixed(2)} N`;
@@ -63,5 +68,5 @@ const report = (() => {
   time.cursor = data.start_s;
   charts.forEach(chart => chart.draw());
   changed(true);
-  return { charts, time, stage, play };
+  return { charts, time, stage, play, radius_m: data.radius_m };
 })();

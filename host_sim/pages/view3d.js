@@ -13,8 +13,10 @@ class View3d {
     this.tilt = [0, 0, 0];  // rotation vector of its spheres
     this.force = null;  // in radii
     this.trail = [];    // points
+    this.links = [];    // points of chains, null between them
     this.off = document.createElement('canvas');
     this.key = '';
+    this.reach = [];    // points that the initial view has room for
     this.moving = false;
     this.unpack();
     this.fit = this.fitted(1000, 700);
@@ -40,7 +42,8 @@ class View3d {
     const { mesh, paths } = this.scene;
     this.points = Float32Array.from(new Int16Array(View3d.bytes(mesh.vertices)), v => v / 32767);
     this.corners = mesh.wide ? new Uint32Array(View3d.bytes(mesh.triangles)) : new Uint16Array(View3d.bytes(mesh.triangles));
-    this.paths = paths.map(path => ({ ...path, points: View3d.vectors(path.points, 4) }));
+    this.paths = paths.map(path => ({ ...path, points: View3d.vectors(path.points, 4) })).filter(path => !path.joints);
+    this.linkStyle = paths.find(path => path.joints) || { key: 'links', colour: '#8068c4', width: 5 };
     // Normals of faces and vertices; sharp corners are shaded flat.
     const { points, corners } = this, face = new Float32Array(corners.length), vertex = new Float32Array(points.length);
     for (let t = 0; t < corners.length; t += 3) {
@@ -142,15 +145,15 @@ class View3d {
       if (dx * dx + dy * dy <= r2 && px >= 0 && py >= 0 && px < this.w && py < this.h) this.put(py * this.w + px, z, colour);
     }
   }
+  static abgr(hex) { return (255 << 24 | parseInt(hex.slice(5, 7), 16) << 16 | parseInt(hex.slice(3, 5), 16) << 8 | parseInt(hex.slice(1, 3), 16)) >>> 0; }
   // A line is a row of discs, slightly in front of the surface.
   drawPath(path, ratio) {
     const radius = path.width * ratio / 2;
-    const abgr = hex => (255 << 24 | parseInt(hex.slice(5, 7), 16) << 16 | parseInt(hex.slice(3, 5), 16) << 8 | parseInt(hex.slice(1, 3), 16)) >>> 0;
     let before = null;
     path.points.forEach((p, i) => {
       const now = p ? this.see(p) : null;
       if (before && now) {
-        const colour = abgr(path.colours ? path.colours[i] : path.colour);
+        const colour = View3d.abgr(path.colours ? path.colours[i] : path.colour);
         const steps = Math.min(4000, Math.ceil(Math.hypot(now[0] - before[0], now[1] - before[1]) / Math.max(0.5, radius / 2)) + 1);
         for (let s = 0; s <= steps; ++s) {
           const q = before.map((v, k) => v + (now[k] - v) * s / steps);
@@ -159,6 +162,14 @@ class View3d {
       }
       before = now;
     });
+  }
+  drawLinks(ratio) {
+    const radius = this.linkStyle.width * ratio / 2;
+    this.drawPath({ ...this.linkStyle, points: this.links }, ratio);
+    for (const p of this.links.filter(Boolean)) {
+      const [x, y, z] = this.see(p);
+      this.disc(x, y, z + 2 * radius + ratio, 1.8 * radius, View3d.abgr(this.linkStyle.colour));  // as in report/draw.cpp
+    }
   }
   // By the rotation vector `by`: Rodrigues' formula.
   static turned(v, by) {
@@ -219,6 +230,7 @@ class View3d {
     };
     for (let j = 0; j < this.points.length; j += 3) take(this.points[j], this.points[j + 1], this.points[j + 2]);
     for (const path of this.paths) for (const p of path.points) if (p) take(...p);
+    for (const p of this.reach) take(...p);
     return 0.45 * Math.min(w / x, h * 0.94 / y);
   }
   render() {
@@ -246,6 +258,7 @@ class View3d {
     this.pixels.set(this.still.pixels);
     this.depth = this.still.depth.slice();
     if (this.trail.length > 1) this.drawPath({ colour: '#2563eb', width: 2, points: this.trail }, ratio * over);
+    if (!this.hidden.has('links')) this.drawLinks(ratio * over);
     if (this.tool) this.drawTool();
     this.off.getContext('2d').putImageData(this.image, 0, 0);
     this.canvas.width = width;
@@ -260,7 +273,9 @@ class View3d {
     this.queued = true;
     requestAnimationFrame(() => this.render());
   }
-  setTool(centre, force, tilt = [0, 0, 0]) { Object.assign(this, { tool: centre, force, tilt }); this.draw(); }
+  setTool(centre, force, tilt = [0, 0, 0], links = []) { Object.assign(this, { tool: centre, force, tilt, links }); this.draw(); }
+  /** The initial view has room for these points, too. */
+  makeRoom(points) { this.reach = points; this.reset(); }
   turn(azimuth, elevation, zoom) {
     const v = this.view;
     v.azimuth += azimuth;

@@ -12,6 +12,8 @@ constexpr double kMargin = 0.93;  // share of the image that the scene fills
 // Cosine between face and vertex normal above which a corner is shaded smoothly.
 constexpr double kSmoothBelow = 0.82;
 
+constexpr double kJointSize = 1.8;  // of a link's width
+
 struct Screen {
   double x, y, depth;  // pixels; depth grows towards the eye
 };
@@ -110,9 +112,22 @@ void draw_mesh(Canvas& canvas, const Scene3d& scene3d) {
 }
 
 // A line is a row of discs, slightly in front of the surface.
+void draw_disc(Canvas& canvas, double x, double y, double z, double radius, Colour colour) {
+  const int reach = static_cast<int>(std::ceil(radius));
+  for (int dy = -reach; dy <= reach; ++dy)
+    for (int dx = -reach; dx <= reach; ++dx)
+      if (dx * dx + dy * dy <= radius * radius)
+        canvas.put(static_cast<int>(std::lround(x)) + dx, static_cast<int>(std::lround(y)) + dy, z,
+                   colour);
+}
+
 void draw_path(Canvas& canvas, const Path& path, double scale) {
   const double radius = path.width * scale / 2;
-  const int reach = static_cast<int>(std::ceil(radius));
+  for (size_t i = 0; path.has_joints && i < path.points.size(); ++i) {
+    if (std::isnan(path.points[i].x)) continue;
+    const Screen p = canvas.see(path.points[i]);
+    draw_disc(canvas, p.x, p.y, p.depth + 2 * radius + 1, kJointSize * radius, path.colour);
+  }
   for (size_t i = 1; i < path.points.size(); ++i) {
     if (std::isnan(path.points[i].x) || std::isnan(path.points[i - 1].x)) continue;
     const Colour colour = path.values.empty() ? path.colour : heat(path.values[i]);
@@ -123,11 +138,7 @@ void draw_path(Canvas& canvas, const Path& path, double scale) {
       const double f = static_cast<double>(s) / steps;
       const double x = a.x + (b.x - a.x) * f, y = a.y + (b.y - a.y) * f;
       const double z = a.depth + (b.depth - a.depth) * f + 2 * radius + 1;
-      for (int dy = -reach; dy <= reach; ++dy)
-        for (int dx = -reach; dx <= reach; ++dx)
-          if (dx * dx + dy * dy <= radius * radius)
-            canvas.put(static_cast<int>(std::lround(x)) + dx, static_cast<int>(std::lround(y)) + dy,
-                       z, colour);
+      draw_disc(canvas, x, y, z, radius, colour);
     }
   }
 }

@@ -67,6 +67,7 @@ std::string mesh_text(const Scene3d& scene3d, bool is_closed) {
 std::string path_text(const Scene3d& scene3d, const Path& path) {
   std::string text = "{\"key\":" + json_text(path.key) + ",\"colour\":\"" + hex_of(path.colour) +
                      "\",\"width\":" + fixed(path.width, 1) +
+                     (path.has_joints ? ",\"joints\":true" : "") +
                      ",\"points\":" + points_text(scene3d, path.points);
   if (!path.values.empty()) {
     text += ",\"colours\":[";
@@ -78,17 +79,20 @@ std::string path_text(const Scene3d& scene3d, const Path& path) {
 }
 
 std::string samples_text(const Report& report, const Scene3d& scene3d) {
-  std::vector<int16_t> device, force, turn;
+  std::vector<int16_t> device, force, turn, joints;
   for (const RunPaths::Sample& sample : report.paths.samples()) {
     add_scaled(device, normalized(scene3d, sample.device_m), kPathReach);
     add_scaled(force, sample.force_N, report.paths.peak_N());
     add_scaled(turn, sample.turn_rad, kMaxTurn_rad);
   }
+  for (const Vec& joint : report.paths.joints_m())
+    add_scaled(joints, normalized(scene3d, joint), kPathReach);
   return "{\"step_s\":" + fixed(report.paths.ticks_per_sample() / report.facts.rate_Hz, 6) +
          ",\"first\":" + std::to_string(report.paths.first()) +
          ",\"peak_N\":" + fixed(report.paths.peak_N(), 6) + ",\"device\":" + packed(device) +
          ",\"force\":" + packed(force) +
-         (report.environment.tool().empty() ? "" : ",\"turn\":" + packed(turn)) + "}";
+         (report.environment.tool().empty() ? "" : ",\"turn\":" + packed(turn)) +
+         (report.paths.joints_m().empty() ? "" : ",\"joints\":" + packed(joints)) + "}";
 }
 
 std::string spans_text(const chart::TimeAxis::Spans& spans) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "firmtouch/servo/fault.hpp"
-#include "host_sim/device/linkage_body.hpp"
+#include "host_sim/device/drawn_links.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -45,30 +45,13 @@ std::vector<RunChart> surface_charts() {
 }
 
 // Of the Jacobian, where the record has the tip; 0 where it cannot be.
-class Condition {
- public:
-  explicit Condition(const tools::LinkageDevice& device) : device_(&device) {}
-  double operator()(const RunTick& tick) {
+std::function<double(const RunTick&)> condition(const tools::LinkageDevice& device) {
+  return [tip = TipFollower(device)](const RunTick& tick) mutable {
     const float(&at_m)[3] = tick.record.output.position_m;
-    const Vec tip_m = {wide(at_m[0]), wide(at_m[1]), wide(at_m[2])};
-    is_found_ =
-        is_found_ ? find_angles_from(*device_, tip_m, at_) : find_angles(*device_, tip_m, at_);
-    if (!is_found_) return 0;
-    float angle_rad[device::kMaxJoints];
-    for (uint32_t k = 0; k < device::kMaxJoints; ++k)
-      angle_rad[k] = static_cast<float>(at_.angle_rad[k]);
-    return std::visit(
-        [&](const auto& linkage) {
-          return wide(device::pose_of(linkage, angle_rad).reciprocal_condition);
-        },
-        device_->linkage);
-  }
-
- private:
-  const tools::LinkageDevice* device_;
-  JointMotion at_;
-  bool is_found_ = false;
-};
+    const JointMotion* at = tip.at({wide(at_m[0]), wide(at_m[1]), wide(at_m[2])});
+    return at != nullptr ? reciprocal_condition(tip.device(), *at) : 0.0;
+  };
+}
 
 RunChart condition_chart(const tools::LinkageDevice& device) {
   return {"Reciprocal condition of the linkage",
@@ -76,7 +59,7 @@ RunChart condition_chart(const tools::LinkageDevice& device) {
           "1: it moves alike in all directions; 0: a singularity. Below " +
               fixed(wide(device.limits.full_from), 2) + " its force fades, from " +
               fixed(wide(device.limits.gone_at), 2) + " down there is none.",
-          {{"at the tool", kGreen, Condition(device), false, 1.2}}};
+          {{"at the tool", kGreen, condition(device), false, 1.2}}};
 }
 
 std::vector<RunChart> charts_of(const Environment& environment,

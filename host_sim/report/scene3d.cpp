@@ -6,6 +6,7 @@
 #include <map>
 
 #include "firmtouch/params/table.hpp"
+#include "host_sim/device/drawn_links.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -19,7 +20,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 constexpr Colour kPart{176, 186, 201}, kTouchedPart{140, 176, 214};
 constexpr Colour kGuideColour{31, 138, 91}, kDeviceColour{37, 99, 235}, kHandColour{138, 147, 166},
-    kTouchColour{232, 93, 38};
+    kTouchColour{232, 93, 38}, kLinkColour{128, 104, 196};
+constexpr double kLinkWidth = 5;
 
 Vec narrow(const float (&v)[3]) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
@@ -170,7 +172,8 @@ RunPaths::RunPaths(const Environment& environment, const Scenario& scenario, con
                                                   : record::kStateMaterialShift),
       held_mask_(environment.materials().empty() ? 31u : 255u),
       held_ticks_(environment.materials().empty() ? environment.meshes().size()
-                                                  : environment.materials().size()) {}
+                                                  : environment.materials().size()),
+      linkage_(scenario.linkage ? &*scenario.linkage : nullptr) {}
 
 size_t RunPaths::first() const {
   return std::min<size_t>((facts_.setup_ticks + stride_ - 1) / stride_, samples_.size());
@@ -189,12 +192,38 @@ void RunPaths::add(const RunTick& tick) {
     peak_device_m_ = tick.device_m;
     peak_meshes_ = moving_.meshes();
     peak_spheres_ = tool_.placed({});
+    if (linkage_ != nullptr) peak_joints_m_ = host_sim::joints_m(*linkage_, tick.joints);
   }
   if (ticks_++ % stride_ != 0) return;
   samples_.push_back({tick.device_m, narrow(out.position_m), tick.target_m, force_N,
                       narrow(out.proxy_m), (out.state & record::kStateContact) != 0,
                       tool_.turn_rad()});
+  if (linkage_ == nullptr) return;
+  for (const Vec& joint : host_sim::joints_m(*linkage_, tick.joints)) joints_m_.push_back(joint);
 }
+
+namespace {
+
+// The chains at the largest force; the scene is then about part and links of the whole run.
+void add_links(Scene3d& scene3d, const RunPaths& run) {
+  if (run.joints_m().empty()) return;
+  scene3d.paths.push_back({"links", "links of the device", kLinkColour, kLinkWidth, {}, {}, true});
+  for (size_t i = 0; i < run.peak_joints_m().size(); i += 2)
+    for (const Vec& p : {run.peak_joints_m()[i], run.peak_joints_m()[i + 1], run.peak_device_m(),
+                         Vec{kNone, 0, 0}})
+      scene3d.paths.back().points.push_back(p);
+  Vec low = run.peak_device_m(), high = low;
+  const auto take = [&](const Vec& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  };
+  for (const Vec& p : scene3d.vertices) take(p);
+  for (const Vec& p : run.joints_m()) take(p);
+  scene3d.centre = (low + high) * 0.5;
+  scene3d.radius_m = norm(high - low) / 2;
+}
+
+}  // namespace
 
 Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double tool_radius_m) {
   Scene3d scene3d = scene_with(environment, run.peak_meshes(), tool_radius_m);
@@ -221,6 +250,7 @@ Scene3d make_scene3d(const Environment& environment, const RunPaths& run, double
   scene3d.paths.push_back(std::move(tool));
   if (environment.has_surface())
     scene3d.paths.push_back(touch_path(environment, run, tool_radius_m));
+  add_links(scene3d, run);
   return scene3d;
 }
 

@@ -21,6 +21,7 @@ struct Path {
   double width = 2;         // pixels
   std::vector<Vec> points;  // NaN in x: the line is interrupted
   std::vector<double> values;
+  bool has_joints = false;  // a disc at each point
 };
 
 /// An object of the 3D view: its triangles stand together.
@@ -56,7 +57,7 @@ Scene3d surface_scene(const Environment& environment, double tool_radius_m);
 /// Samples of a run for the 3D view, gathered while it goes on. Bounded memory.
 class RunPaths {
  public:
-  /// `facts` outlives this.
+  /// `scenario` and `facts` outlive this.
   RunPaths(const Environment& environment, const Scenario& scenario, const RunFacts& facts);
   void add(const RunTick& tick);
 
@@ -77,6 +78,10 @@ class RunPaths {
   const std::vector<PlacedSphere>& peak_spheres() const { return peak_spheres_; }
   /// Ticks with the motors on in which each object held the tool; each material, if there are any.
   const std::vector<uint32_t>& held_ticks() const { return held_ticks_; }
+  /// Joints of a linkage (device/drawn_links.hpp), sample by sample; empty: there is none.
+  const std::vector<Vec>& joints_m() const { return joints_m_; }
+  /// The same at the largest force.
+  const std::vector<Vec>& peak_joints_m() const { return peak_joints_m_; }
   /// First sample of which the scenario's parameters are set.
   size_t first() const;
 
@@ -92,6 +97,8 @@ class RunPaths {
   std::vector<PlacedSphere> peak_spheres_;
   uint32_t held_shift_, held_mask_;  // of the record's state
   std::vector<uint32_t> held_ticks_;
+  const tools::LinkageDevice* linkage_;
+  std::vector<Vec> joints_m_, peak_joints_m_;
 };
 
 /// The surface with the paths of a run.

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "host_sim/device/drawn_links.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
@@ -41,41 +42,25 @@ PolyData scene_of(const Environment& environment, const std::vector<PlacedMesh>&
 }
 
 // The links of a linkage whose tip is where the record has it; none where it cannot be there.
-class Links {
- public:
-  explicit Links(const tools::LinkageDevice* device) : device_(device) {
-    if (device_ != nullptr) chains_ = tools::links_of(*device_).size() / 2;
+void add_links(TipFollower& tip, Vec tip_m, PolyData& to) {
+  const JointMotion* at = tip.at(tip_m);
+  if (at == nullptr) return;
+  const std::vector<Vec> joints = joints_m(tip.device(), *at);
+  for (size_t i = 0; i < joints.size(); i += 2) {
+    const uint32_t first = static_cast<uint32_t>(to.points_m.size());
+    to.points_m.insert(to.points_m.end(), {joints[i], joints[i + 1]});
+    to.lines.push_back({first, first + 1, kTip});
   }
-  void add(Vec tip_m, PolyData& to) {
-    if (device_ == nullptr) return;
-    const bool is_found = is_found_ ? find_angles_from(*device_, tip_m, motion_)
-                                    : find_angles(*device_, tip_m, motion_);
-    is_found_ = is_found;
-    if (!is_found) return;
-    const MovingPoints points = points_of(*device_, motion_);
-    for (size_t k = 0; k < chains_; ++k) {
-      const uint32_t first = static_cast<uint32_t>(to.points_m.size());
-      to.points_m.push_back(points.base[k].at_m);
-      to.points_m.push_back(points.elbow[k].at_m);
-      to.lines.push_back({first, first + 1, kTip});
-    }
-  }
-
- private:
-  const tools::LinkageDevice* device_;
-  size_t chains_ = 0;
-  JointMotion motion_;
-  bool is_found_ = false;
-};
+}
 
 PolyData tick_of(const record::TickRecord& record, double time_s, float tool_radius_m,
-                 Links& links) {
+                 std::optional<TipFollower>& tip) {
   const record::TickOutput& out = record.output;
   PolyData data;
   data.points_m = {wide(out.position_m), wide(out.proxy_m)};
   data.verts = {{kTip}, {kProxy}};
   data.lines = {{kTip, kProxy}};
-  links.add(wide(out.position_m), data);
+  if (tip) add_links(*tip, wide(out.position_m), data);
   PolyData::Values part{"part", 1, {kTip, kProxy}}, force{"force_N", 3, {}},
       velocity{"velocity_mps", 3, {}};
   part.values.resize(data.points_m.size(), kLink);
@@ -108,7 +93,8 @@ uint32_t export_vtk(const Log& log, const Environment& environment, const VtkExp
                     const std::string& folder, const std::function<void(double)>& progress) {
   MovingMeshes moving(environment.meshes(), static_cast<float>(what.period_s));
   std::vector<PlacedMesh> written = moving.meshes();
-  Links links(what.linkage);
+  std::optional<TipFollower> tip;
+  if (what.linkage) tip.emplace(*what.linkage);
   std::vector<TimedFile> files;
   std::string scene;
   uint32_t ticks = 0;
@@ -124,7 +110,7 @@ uint32_t export_vtk(const Log& log, const Environment& environment, const VtkExp
       write_file(folder + "/" + scene, vtp_of(scene_of(environment, written)));
     }
     write_file(folder + "/tick_" + number,
-               vtp_of(tick_of(record, time_s, what.tool_radius_m, links)));
+               vtp_of(tick_of(record, time_s, what.tool_radius_m, tip)));
     files.push_back({time_s, 0, scene});
     files.push_back({time_s, 1, "tick_" + number});
     ++ticks;

@@ -1,9 +1,9 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "device/device_file.hpp"
-#include "host_sim/device/linkage_body.hpp"
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/report/vtk.hpp"
 #include "host_sim/trace/log.hpp"
@@ -14,7 +14,7 @@ struct VtkExport {
   uint32_t every = 16;     // ticks
   double period_s = 1e-3;  // of a tick
   float tool_radius_m = 0;
-  const tools::LinkageDevice* linkage = nullptr;  // null: its links are not drawn
+  std::optional<tools::LinkageDevice> linkage = {};  // its links are drawn
 };
 
 /// Writes a run into the folder: run.pvd, which names the others; tick_N.vtp with links, tip,

@@ -378,6 +378,7 @@ bool Simulation::next(RunTick& tick) {
   tick.target_m = loop.arm.position_m();
   tick.hand_N = loop.hand_N();
   tick.device_mps = loop.machine.velocity_mps();
+  tick.joints = loop.machine.joints();
   tick.hand_J = loop.hand_J;
   tick.encoder_off_rad = loop.machine.encoder_off_rad();
   return true;

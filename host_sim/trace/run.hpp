@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "device/moving_points.hpp"
 #include "firmtouch/controller/tool_controller.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/plant/environment.hpp"
@@ -24,6 +25,7 @@ struct RunTick {
   Vec target_m;                // target of the hand
   Vec hand_N;                  // force of the hand
   Vec device_mps;              // true velocity
+  tools::JointMotion joints;   // the true ones of a linkage
   double hand_J = 0;           // work of the hand on the device so far
   double encoder_off_rad = 0;  // the most by which an encoder has miscounted
   uint32_t instructions = 0;   // 0: the controller does not count them

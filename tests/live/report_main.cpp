@@ -126,14 +126,42 @@ void lines_and_files(Test& test) {
                           2));
 }
 
+// Of a run on an arm whose two links have 133 mm.
+void links(Test& test) {
+  test.check("the links of an arm end at the tool and are as long as its file says",
+             test.becomes("(() => { const s = report.stage, d = (a, b) => report.radius_m * "
+                          "Math.hypot(...[0, 1, 2].map(k => s.links[a][k] - s.links[b][k])); "
+                          "return s.links.length === 4 && Math.abs(d(0, 1) - 0.133) < 1e-4 && "
+                          "Math.abs(d(1, 2) - 0.133) < 1e-4 && s.links[2] === s.tool; })()",
+                          30));
+  test.run(
+      "window.violet = () => { const c = report.stage.canvas, d = c.getContext('2d')"
+      ".getImageData(0, 0, c.width, c.height).data; let n = 0; for (let i = 0; i < d.length; i += "
+      "4) n += d[i] === 128 && d[i + 1] === 104 && d[i + 2] === 196; return n; }");
+  test.check("they are drawn", test.becomes("window.violet() > 1000"));
+  test.check("and follow the time within the picture",
+             test.becomes("[...Array(21).keys()].every(i => { "
+                          "report.time.set(report.time.seconds * i / 20); const s = report.stage; "
+                          "return s.links.filter(Boolean).every(p => { const [x, y] = s.see(p); "
+                          "return x > 0 && y > 0 && x < s.w && y < s.h; }); })",
+                          2));
+  test.picture("report_links");
+  test.run("document.querySelector('input[data-path=links]').click()");
+  test.check("their legend hides them", test.becomes("window.violet() === 0"));
+  test.check("the condition stands at its chart",
+             test.becomes("(c => c && Number(c.values[0].textContent) > 0.1 && "
+                          "Number(c.values[0].textContent) < 1)(report.charts.find(c => "
+                          "/^Reciprocal condition/.test(c.about.title)))"));
+}
+
 }  // namespace
 
 int main(int count, char** words) {
-  if (count < 4) {
-    std::fprintf(stderr, "usage: report_page BROWSER URL FOLDER [PICTURES]\n");
+  if (count < 5) {
+    std::fprintf(stderr, "usage: report_page BROWSER URL URL_OF_A_LINKAGE FOLDER [PICTURES]\n");
     return 2;
   }
-  Test test(words[1], words[3], words[4]);  // null behind the last word
+  Test test(words[1], words[4], words[5]);  // null behind the last word
   if (!test.check("the browser opens the report", test.browser.open(words[2], 1440, 1000)))
     return 1;
   test.check("it has its charts and its name",
@@ -161,5 +189,8 @@ int main(int count, char** words) {
       test.becomes(
           codes + ".length > 0 && " + codes + ".every(c => c.getClientRects().length === 1)", 2));
   test.picture("report_phone");
+  if (test.check("the browser opens the report of a linkage",
+                 test.browser.open(words[3], 1440, 1000)))
+    links(test);
   return test.finish();
 }
