@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <optional>
 
 #include "firmtouch/link/protocol.hpp"
 #include "firmtouch/params/table.hpp"
@@ -9,6 +10,7 @@
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/controllers/session.hpp"
+#include "host_sim/device/drawn_links.hpp"
 #include "host_sim/live/live_server.hpp"
 #include "host_sim/report/page_data.hpp"
 #include "host_sim/report/page_parts.hpp"
@@ -34,16 +36,16 @@ std::string remedies() {
   return all.object();
 }
 
-// The whole page in one text; `asset`: of the part that it shows, or empty.
-std::string live_page(const std::string& asset) {
+// The whole page in one text; `session`: of the part that it shows, or null.
+std::string live_page(const Session* session) {
   std::string scene;
-  if (!asset.empty()) {
-    const Session session(asset);
-    const Environment environment = environment_of(*session.controller, {});
+  if (session != nullptr) {
+    const Environment environment = environment_of(*session->controller, {});
     const double radius_m = static_cast<double>(params::kTable[params::kToolRadius].initial);
     const Scene3d scene3d = surface_scene(environment, radius_m);
-    scene =
-        "<script>window.firmtouchScene = {" + scene_data_of(scene3d, environment) + "};</script>\n";
+    scene = "<script>window.firmtouchScene = {" + scene_data_of(scene3d, environment) +
+            ",\"linkage\":" + (session->controller->linkage().is_open() ? "true" : "false") +
+            "};</script>\n";
   }
   std::string page = kLiveHtml;
   fill(page, "{{script}}", kLiveJs);
@@ -54,19 +56,35 @@ std::string live_page(const std::string& asset) {
   return page;
 }
 
+// Answers a tip with the reciprocal condition and the joints; with nothing where it cannot be.
+std::string joints_text(TipFollower& tip, Vec tip_m) {
+  const JointMotion* at = tip.at(tip_m);
+  if (at == nullptr) return "";
+  std::string text = tools::json_number(reciprocal_condition(tip.device(), *at));
+  for (const Vec& joint : joints_m(tip.device(), *at))
+    for (const double c : {joint.x, joint.y, joint.z}) text += " " + tools::json_number(c);
+  return text;
+}
+
 int serve_live(const cli::Arguments& options) {
   const std::string asset = options.text("--asset"), to = options.text("--page");
+  std::optional<Session> session;
+  if (!asset.empty()) session.emplace(asset);
   if (!to.empty()) {
     check_outputs({{"--asset", asset}}, {{"--page", to}});
-    write_file(to, live_page(asset));
+    write_file(to, live_page(session ? &*session : nullptr));
     return 0;
   }
   if (options.positionals().empty()) options.refuse("name a controller, or --page FILE.html");
   const std::string where = options.positionals()[0];
   const double port = options.number("--port", 5678, 1);
   if (!(port <= 65535)) options.refuse("--port: a number up to 65535 is needed");
-  LiveServer server(static_cast<uint16_t>(port), live_page(asset),
-                    connect_stream(where, wait_s(options)));
+  std::function<std::string(Vec)> joints_of;
+  if (session && session->controller->linkage().is_open())
+    joints_of = [tip = TipFollower(kinematics_of(session->controller->linkage()))](
+                    Vec tip_m) mutable { return joints_text(tip, tip_m); };
+  LiveServer server(static_cast<uint16_t>(port), live_page(session ? &*session : nullptr),
+                    connect_stream(where, wait_s(options)), std::move(joints_of));
   std::cerr << "http://127.0.0.1:" << static_cast<int>(port) << "/   (Ctrl-C ends)\n";
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

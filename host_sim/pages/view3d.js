@@ -275,7 +275,11 @@ class View3d {
   }
   setTool(centre, force, tilt = [0, 0, 0], links = []) { Object.assign(this, { tool: centre, force, tilt, links }); this.draw(); }
   /** The initial view has room for these points, too. */
-  makeRoom(points) { this.reach = points; this.reset(); }
+  makeRoom(points) {
+    this.reach = this.reach.concat(points);
+    this.fit = this.fitted(1000, 700);
+    this.draw();
+  }
   turn(azimuth, elevation, zoom) {
     const v = this.view;
     v.azimuth += azimuth;

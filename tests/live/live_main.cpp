@@ -206,6 +206,38 @@ void plots(Test& test) {
                           2));
 }
 
+// The links of an arm of 133 mm each, whose tip is where the test says.
+void links(Test& test) {
+  test.browser.evaluate(
+      "(() => { const request = page.requestJoints.bind(page); page.requestJoints = () => "
+      "request(window.tip); "
+      "window.tip = [0.15, 0.02, 0.03]; })()");
+  test.check("links of a linkage are drawn, as long as they are",
+             test.becomes("(() => { const s = page.stage, d = (a, b) => page.scene.radius_m * "
+                          "Math.hypot(...[0, 1, 2].map(k => s.links[a][k] - s.links[b][k])); "
+                          "return s.links.length === 4 && Math.abs(d(0, 1) - 0.133) < 1e-6 && "
+                          "Math.abs(d(1, 2) - 0.133) < 1e-6; })()",
+                          kPatience_s));
+  test.check("with the condition number of its pose",
+             test.becomes("(c => c > 1 && c < 10 && $('newton').textContent.startsWith(`condition "
+                          "${c.toFixed(2)} \u00B7 `))(1 / page.condition)",
+                          kPatience_s));
+  test.browser.evaluate(
+      "window.before = page.stage.links[0], page.parameters.find(p => p.row.name === "
+      "'scene_x_m').held = 0.01");
+  test.check("in the frame of the asset, which the scene's place moves",
+             test.becomes("Math.abs((window.before[0] - page.stage.links[0][0]) * "
+                          "page.scene.radius_m - 0.01) < 1e-9",
+                          kPatience_s));
+  test.picture("links");
+  test.browser.evaluate(
+      "page.parameters.find(p => p.row.name === 'scene_x_m').held = 0, window.tip = [2, 0, 0]");
+  test.check("where its tip cannot be, none, and no condition",
+             test.becomes("page.stage.links.length === 0 && "
+                          "$('newton').textContent.startsWith('condition unknown')",
+                          kPatience_s));
+}
+
 // A second page waits, takes the link over, and gives it back.
 void second_page(Test& test, const std::string& url) {
   const std::string first = test.browser.page();
@@ -274,6 +306,10 @@ int main(int count, char** words) {
                    test.becomes("document.querySelectorAll('.plot').length === 5", 1));
     test.check("the motors come on when the hand closes its switch",
                test.becomes(kMotorsAreOn, kPatience_s));
+    test.check("the page has the remedies of rules that reject an asset",
+               test.becomes("kRemedies[915].includes('part `linkage`') && "
+                            "kRemedies[0].includes('bake it again')",
+                            1));
     stiffness(test);
     test.picture("desktop");
     refusals(test);
@@ -283,6 +319,7 @@ int main(int count, char** words) {
     recording(test);
     plots(test);
     test.picture("tuned");
+    links(test);
     second_page(test, words[2]);
     std::printf("      %s\n", test.browser.evaluate("$('flow').textContent").c_str());
     serial(test);
