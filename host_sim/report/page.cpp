@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "firmtouch/params/table.hpp"
+#include "host_sim/report/condition_map.hpp"
 #include "host_sim/report/page_data.hpp"
 #include "host_sim/report/page_parts.hpp"
 #include "host_sim/report/report.hpp"
@@ -223,6 +224,7 @@ std::string page_of(const Report& report) {
   html += "<div class=\"top\">" + stage_of(scene3d, "The part, the guide and the tool") +
           "<section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
           "</section></div>\n";
+  if (report.scenario.linkage) html += condition_card(*report.scenario.linkage, report.paths);
   html += plots(report.charts) + kTimeBar;
   html += "<footer><p>Written by <code>" + html_of(report.command) +
           "</code>. The oracle that checks the distances shares no code with the controller.</p>"

@@ -8,6 +8,7 @@
 
 #include "device/machines.hpp"
 #include "harness/test.hpp"
+#include "host_sim/report/condition_map.hpp"
 #include "host_sim/report/run_charts.hpp"
 #include "host_sim/report/scene3d.hpp"
 
@@ -141,5 +142,49 @@ TEST(ConditionChart_OfEachMachine_IsThatOfTheTipsDifferences) {
     CHECK_LT(off, 2e-5);  // float32 along the Jacobian
     CHECK_LT(least, 0.9 * greatest);
   }
+}
+
+// The map of a five-bar against its angles in closed form: cosines of the triangles of each side.
+TEST(ConditionMap_OfAFiveBar_IsThatOfItsAnglesInClosedForm) {
+  const LinkageDevice device = machine("pantograph_mk2");
+  const device::FiveBar& bar = std::get<device::FiveBar>(device.linkage);
+  const host_sim::ConditionMap map = host_sim::condition_map(device, 0);
+  CHECK_EQ(map.reciprocal.size(), size_t{map.columns} * map.rows);
+  CHECK_EQ(std::max(map.columns, map.rows), 120u);
+  // The first cell is the upper left one, and the last ends at the lower right corner.
+  const Vec first_m = map.middle_m(0, 0), last_m = map.middle_m(map.columns - 1, map.rows - 1);
+  const double cell_m = (map.high_m.x - map.low_m.x) / map.columns;
+  CHECK_LT(norm(first_m - Vec{map.low_m.x, map.high_m.y, 0} - Vec{cell_m, -cell_m, 0} * 0.5),
+           0.02 * cell_m);
+  CHECK_LT(norm(last_m - Vec{map.high_m.x, map.low_m.y, 0} - Vec{-cell_m, cell_m, 0} * 0.5),
+           0.02 * cell_m);
+  double off = 0;
+  uint32_t reached = 0, wrong = 0;
+  for (uint32_t i = 0; i < map.reciprocal.size(); ++i) {
+    const Vec tip_m = map.middle_m(i % map.columns, i / map.columns);
+    JointMotion at;
+    bool is_there = true;
+    for (uint32_t k = 0; k < 2; ++k) {
+      const double side = k == 0 ? -1 : 1,
+                   x = tip_m.x - side * 0.5 * static_cast<double>(bar.base_m);
+      const double near_m = static_cast<double>(bar.proximal_m[k]);
+      const double far_m = static_cast<double>(bar.distal_m[k]), way2 = x * x + tip_m.y * tip_m.y;
+      const double cosine =
+          (near_m * near_m + way2 - far_m * far_m) / (2 * near_m * std::sqrt(way2));
+      at.angle_rad[k] = std::atan2(tip_m.y, x) - side * std::acos(std::clamp(cosine, -1.0, 1.0));
+      const device::JointSetting& joint = device.joints.joint[k];
+      is_there = is_there && std::fabs(cosine) < 1 &&
+                 at.angle_rad[k] >= static_cast<double>(joint.low_rad) &&
+                 at.angle_rad[k] <= static_cast<double>(joint.high_rad);
+    }
+    wrong += is_there != (map.reciprocal[i] >= 0) ? 1u : 0u;
+    if (!is_there || map.reciprocal[i] < 0) continue;
+    ++reached;
+    off = std::max(off, std::fabs(map.reciprocal[i] - condition_of(device, at)));
+  }
+  CHECK_EQ(wrong, 0u);
+  CHECK_LT(1000u, reached);
+  CHECK_LT(reached, map.reciprocal.size() - 1000);
+  CHECK_LT(off, 2e-5);
 }
 #endif

@@ -148,6 +148,24 @@ void links(Test& test) {
   test.picture("report_links");
   test.run("document.querySelector('input[data-path=links]').click()");
   test.check("their legend hides them", test.becomes("window.violet() === 0"));
+  test.run(
+      "window.map = Object.assign(new Image(), { src: document.querySelector('#condition image')"
+      ".getAttribute('href') }); window.mapAt = (x, y) => { const c = document.createElement("
+      "'canvas'), g = c.getContext('2d'); c.width = map.naturalWidth; c.height = "
+      "map.naturalHeight; g.drawImage(map, 0, 0); return [...g.getImageData(x * c.width, y * "
+      "c.height, 1, 1).data]; }; report.time.set(0.02)");
+  test.check(
+      "the map of the condition has the colour of the chart's figure where the tool is, "
+      "and another out of reach",
+      test.becomes(
+          "map.naturalWidth > 50 && (() => { const s = document.querySelector('#condition "
+          "svg').viewBox.baseVal, [x, y] = document.querySelector('#condition polyline')"
+          ".getAttribute('points').split(' ')[0].split(',').map(Number), chart = "
+          "report.charts.find(c => /^Reciprocal/.test(c.about.title)), is = "
+          "Number(chart.values[0].textContent.trim()), [r, g, b] = mapAt(x / s.width, y / "
+          "s.height); return Math.abs(r - (222 - 202 * is)) < 9 && Math.abs(g - (238 - 128 "
+          "* is)) < 9 && Math.abs(b - (214 - 140 * is)) < 9 && String(mapAt(0, 0)) === "
+          "'150,158,170,255'; })()"));
   test.check("the condition stands at its chart",
              test.becomes("(c => c && Number(c.values[0].textContent) > 0.1 && "
                           "Number(c.values[0].textContent) < 1)(report.charts.find(c => "
