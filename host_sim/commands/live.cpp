@@ -100,7 +100,7 @@ cli::Command live_command() {
           "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
           "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
           "The page is served to this machine only. One page holds the link; others wait.",
-          {{"--asset", "FILE", "the controller's asset: the page shows its part"},
+          {{"--asset", "FILE", "the controller's asset: the page shows its part, and its linkage"},
            {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
            wait_option(),
            {"--page", "FILE.html",

@@ -179,7 +179,7 @@ std::string plan_scenario(const Environment& environment, const std::string& ass
   if (is_followed)
     out.add("follow guide at %.4g mm/s for %.4g s", run.speed_mps * 1e3, run.time_s);
   else if (environment.has_guide())
-    out.add("# not followed: the linkage does not reach the whole guide with its whole force");
+    out.line("# not followed: the linkage does not reach the whole guide with its whole force");
   if (!environment.has_surface()) return out.text();
   if (is_followed)
     out.add("follow guide at %.4g mm/s for %.4g s pressing %.4g mm", run.speed_mps * 1e3,

@@ -326,7 +326,16 @@ int main(int count, char** words) {
     test.check("no frame was damaged",
                test.browser.evaluate("page.session.decoder.rejects") == "0");
   }
-  ::kill(static_cast<pid_t>(std::atoi(words[3])), SIGKILL);
+  const pid_t controller = static_cast<pid_t>(std::atoi(words[3]));
+  ::kill(controller, SIGSTOP);
+  test.browser.evaluate("$('leave').click(), setTimeout(() => $('connect').click(), 200)");
+  test.check("a controller that does not answer is reported within 3 s, with how long it may take",
+             test.becomes("/No answer for [13] s; waiting until 31 s are over/.test("
+                          "$('banner').textContent)",
+                          3));
+  ::kill(controller, SIGCONT);
+  test.check("and when it answers, the page is connected", test.becomes(kConnected, kConnect_s));
+  ::kill(controller, SIGKILL);
   test.check("the page reports a closed link",
              test.becomes("$('banner').textContent.includes('Disconnected')", 5) &&
                  test.becomes("$('state').textContent.startsWith('State, as last reported')", 1));
