@@ -81,7 +81,7 @@ int connect_tcp(const std::string& where, double wait_s) {
 }
 
 int open_serial(const std::string& device) {
-  const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  const int fd = open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0)
     throw Refused(
         device + ": " + reason() +

@@ -1,5 +1,7 @@
 #include "host_sim/controllers/live_link.hpp"
 
+#include <arpa/inet.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -84,6 +86,35 @@ TEST(LiveLink_ControllerThatDoesNotAnswer_IsReportedInItsTimeWithWhatCame) {
                  "in 0.1 s (--wait S); 7 bytes came, and no answer"));
   CHECK(contains(said_after(0.1, hello_reply(link::kRefusedNotReady, 0)),
                  "the controller is still checking its asset: wait longer"));
+}
+
+// Its queue is full: the kernel drops whoever else knocks.
+TEST(Connect_HostThatDoesNotAnswer_IsGivenUpInItsTime) {
+  const int listener = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof address;
+  CHECK_EQ(bind(listener, reinterpret_cast<const sockaddr*>(&address), size), 0);
+  CHECK_EQ(listen(listener, 0), 0);
+  CHECK_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  int waiting[4];
+  for (int& one : waiting) {
+    one = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0);
+    (void)connect(one, reinterpret_cast<const sockaddr*>(&address), size);
+  }
+  const std::string where = "tcp:127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  std::string said;
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    connect_stream(where, 0.3);
+  } catch (const Refused& refused) {
+    said = refused.what();
+  }
+  CHECK(std::chrono::steady_clock::now() - begin < std::chrono::seconds(3));
+  CHECK(contains(said, (where + ": no connection in 0.3 s (--wait S)").c_str()));
+  for (const int one : waiting) close(one);
+  close(listener);
 }
 
 TEST(AssetRemedy_EveryRuleOfTheController_SaysWhatToDo) {
