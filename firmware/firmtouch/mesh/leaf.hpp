@@ -218,25 +218,34 @@ template <class Source, class Wanted>
   }
 }
 
-/// The same, and keeps the rivals. Find: find_foot(), or find_foot_apart().
-template <class Source, class Find>
+/// The same, and keeps the rivals. kApart: by find_foot_apart().
+template <class Source, bool kApart>
 [[gnu::always_inline]] static inline void measure_rivals(uint32_t child, uint32_t slot,
-                                                         const Find& find, Sought& sought) {
-  const math::Vec3 p_m = sought.p_m;
+                                                         Sought& sought) {
+  float in[5];
+  math::load_kept(&sought.p_m.x, in);
+  const math::Vec3 p_m{in[0], in[1], in[2]};
+  const float slack_m2 = in[3];
   Best& best = sought.best;
   Rivals& rivals = sought.rivals;
-  float limit2_m2 = rivals.limit2_m2(best.distance2_m2);
-  Nearer wanted = Nearer::than(limit2_m2, sought.slack_m2);
+  float limit2_m2 = rivals.limit2_m2(in[4]);
+  Nearer wanted = Nearer::than(limit2_m2, slack_m2);
   const uint32_t first = leaf_first(child), end = first + leaf_count(child);
   Source triangles(sought, first);
   for (uint32_t i = first; i != end; ++i) {
     typename Source::Shape shape;
     triangles.next(shape);
     Foot foot;
-    if (!find(p_m, shape, wanted, foot) || !(foot.distance2_m2 < limit2_m2)) continue;
-    if (take_foot(foot, shape.ab(), i, slot, best, rivals)) {
+    if constexpr (kApart) {
+      if (!find_foot_apart(p_m, shape, wanted, foot)) continue;
+    } else {
+      if (!find_foot(p_m, shape, wanted, foot)) continue;
+    }
+    if (!(foot.distance2_m2 < limit2_m2)) continue;
+    const Foot taken = foot;  // most are not taken, and stay in registers
+    if (take_foot(taken, shape.ab(), i, slot, best, rivals)) {
       limit2_m2 = rivals.limit2_m2(best.distance2_m2);
-      wanted = Nearer::than(limit2_m2, sought.slack_m2);
+      wanted = Nearer::than(limit2_m2, slack_m2);
     }
   }
 }

@@ -217,17 +217,13 @@ template <class Source, class Wanted>
 // 32 bits are rare on a controller.
 [[gnu::noinline, gnu::cold]] void measure_wide_rivals(uint32_t child, uint32_t slot,
                                                       Search& search) {
-  measure_rivals<LeafTriangles>(child, slot, find_foot_apart, search);
+  measure_rivals<LeafTriangles, true>(child, slot, search);
 }
 [[gnu::noinline]] uint32_t measure_with_rivals(uint32_t prune, uint32_t child, uint32_t slot,
                                                Search& search) {
   if (search.leaf_boxes != nullptr && prune != 0 && is_beyond(prune, child, search)) return 1;
   if (search.is_narrow)
-    measure_rivals<LeafCorners<uint16_t>>(
-        child, slot,
-        [](Vec3 p_m, const OfCorners& shape, Nearer wanted, Foot& foot)
-            __attribute__((always_inline)) { return find_foot(p_m, shape, wanted, foot); },
-        search);
+    measure_rivals<LeafCorners<uint16_t>, false>(child, slot, search);
   else
     measure_wide_rivals(child, slot, search);
   return search.best.slot ^ slot;
