@@ -177,6 +177,28 @@ TEST(StandingStill_ShortQuery_CertificateOnlyImproves) {
   CHECK_LE(20, raised);
 }
 
+// A hint certifies what is near its position; this position is none, or infinitely far.
+TEST(HintOfNoPosition_CarriesNothingOn) {
+  const BakedMesh& baked = part();
+  const float nowhere[] = {NAN, HUGE_VALF, 1e30f};
+  Random random(23);
+  const auto at = [&](double reach_m) {
+    return static_cast<float>(random.between(-1, 1) * reach_m);
+  };
+  for (int i = 0; i < 6000; ++i) {
+    const Vec3 p{at(0.075), at(0.075), at(0.04)};
+    mesh::Hint hint, cold;
+    mesh::closest_point(baked.view, p, query::kUnlimited, hint);
+    mesh::closest_point(baked.view, {p.x + 1e-6f, p.y, p.z}, query::kUnlimited, hint);
+    hint.position_m.x = nowhere[i % 3];
+    const Vec3 to{p.x + at(0.005), p.y + at(0.005), p.z + at(0.005)};
+    const mesh::Closest c = mesh::closest_point(baked.view, to, query::kUnlimited, hint);
+    const mesh::Closest right = mesh::closest_point(baked.view, to, query::kUnlimited, cold);
+    CHECK_LE(std::fabs(c.distance_m - right.distance_m), 1e-8f);
+    CHECK_LE(c.certificate.lower_m, std::fabs(right.distance_m));
+  }
+}
+
 TEST(SixtyFourStepsGiveAGoodLowerBound) {
   const BakedMesh& baked = part();
   Random random(9);

@@ -191,7 +191,8 @@ template <class Finder, class Bound>
       corners.compensated_m(search.p_m, search.best.feature, search.best.distance2_m2);
 }
 
-// Where float32 does not promise `within_m`. Its result is stored, so it is called by value.
+// Where float32 does not promise `within_m`. By value: a reference would keep `found` of every
+// query in memory.
 template <class Finder, class Bound>
 [[gnu::noinline, gnu::cold]] Found refined(const View& mesh, Finder finder, const Bound& bound,
                                            uint32_t budget, float threshold_m, float within_m,
