@@ -99,18 +99,23 @@ class Turns {
   query::Work& work_;
 };
 
+constexpr uint32_t kFaceWork = 5;  // of a face that is not passed by: 700 instructions
+
 template <class Taker>
 struct Faces {
-  Faces(const BaseHull& of, const BaseHullSegment& along, Vec3 from_m, Vec3 to_m, Taker& to)
+  Faces(const BaseHull& of, const BaseHullSegment& along, Vec3 from_m, Vec3 to_m,
+        query::Work& taken, Taker& to)
       : base_hull(of),
         segment(along),
         a_m(from_m),
         b_m(to_m),
+        work(taken),
         taker(to),
         limit(along.until(to.limit)) {}
   const BaseHull& base_hull;
   const BaseHullSegment& segment;
   Vec3 a_m, b_m;
+  query::Work& work;
   Taker& taker;
   int32_t limit;
   bool has_frame = false;  // most segments come near no face
@@ -120,6 +125,7 @@ struct Faces {
     const BaseHullHead& head = base_hull.head();
     if (!has_frame) frame = mesh::SegmentFrame(head.low_m, head.high_m, a_m, b_m);
     has_frame = true;
+    work.charge(kFaceWork);
     const bool is_wanted = taker.take(frame, points_of(base_hull, leaf, n), leaf.first_face + n);
     limit = segment.until(taker.limit);
     return is_wanted;
@@ -129,7 +135,7 @@ struct Faces {
 template <class Taker>
 bool search(const BaseHull& base_hull, Vec3 a_m, Vec3 b_m, query::Work& work, Taker& taker) {
   const BaseHullSegment segment(base_hull, a_m, b_m);
-  Faces<Taker> faces(base_hull, segment, a_m, b_m, taker);
+  Faces<Taker> faces(base_hull, segment, a_m, b_m, work, taker);
   return descend(base_hull, segment, work, faces);
 }
 
