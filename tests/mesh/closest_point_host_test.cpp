@@ -6,6 +6,8 @@
 
 #include "baked_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/direction.hpp"
+#include "firmtouch/mesh/nearest_answer.hpp"
 #include "harness/test.hpp"
 #include "surface/crossings.hpp"
 #include "surface/make/make_cad.hpp"
@@ -80,6 +82,28 @@ void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed, do
   }
 }
 
+// Of radius 1 m and 2.4 m long about the origin, with a fan from one corner at either end.
+tools::Surface cylinder_of(uint32_t sides) {
+  tools::Surface surface;
+  const uint32_t rings = 3, last = (rings - 1) * sides;
+  for (uint32_t i = 0; i < rings * sides; ++i)
+    surface.vertices.push_back({static_cast<float>(std::cos(2 * M_PI * i / sides)),
+                                static_cast<float>(std::sin(2 * M_PI * i / sides)),
+                                1.2f * (static_cast<float>(i / sides) - 1)});
+  for (uint32_t ring = 0; ring < last; ring += sides) {
+    for (uint32_t i = 0; i < sides; ++i) {
+      const uint32_t here = ring + i, next = ring + (i + 1) % sides;
+      surface.faces.push_back({here, next, here + sides});
+      surface.faces.push_back({here + sides, next, next + sides});
+    }
+  }
+  for (uint32_t i = 1; i + 1 < sides; ++i) {
+    surface.faces.push_back({0, i + 1, i});
+    surface.faces.push_back({last, last + i, last + i + 1});
+  }
+  return surface;
+}
+
 void against_real_model(const char* file, size_t daily, size_t whole) {
   if (models_folder().empty()) return test::skip("FIRMTOUCH_MODELS names no folder of real models");
   const BakedMesh baked(real_model(file));
@@ -117,6 +141,92 @@ TEST(MachinedPartsAnswerLikeBruteForce) {
     CHECK(baked.view.has_rivals());
     against_brute_force(baked, long_run() ? 10000 : 300, seed, 4e-6);
   }
+}
+
+// From its axis all sides of a cylinder are equally near, and about a corner of its fans many
+// triangles: more than the rivals that are kept. Only a bound of the others is, which mostly
+// saves measuring all again.
+TEST(MoreRivalsThanAreKept_AnswerLikeBruteForce) {
+  constexpr uint32_t kSides = 160;
+  const tools::Surface cylinder = cylinder_of(kSides);
+  tools::MeshOptions as_given;
+  as_given.max_growth = 0;
+  const BakedMesh baked(cylinder, as_given);
+  CHECK(baked.view.has_rivals());
+  Random random(29);
+  const auto at = [&](double reach_m) {
+    return static_cast<float>(random.between(-1, 1) * reach_m);
+  };
+  std::vector<Vec3> queries;
+  for (uint32_t i = 0; i < (long_run() ? 20000u : 600u); ++i) {
+    const double reach_m = std::exp(random.between(-14, -7));
+    const Vec3 from_m = i % 3 == 0 ? cylinder.vertices[0] : Vec3{0, 0, at(0.1)};
+    const float x_m = from_m.x + at(reach_m), y_m = from_m.y + at(reach_m);
+    queries.push_back({x_m, y_m, from_m.z + at(reach_m)});
+  }
+  const std::vector<Truth> truth = truths(cylinder, queries);
+  mesh::Hint warm;
+  uint64_t work_about_axis = 0;
+  for (size_t i = 0; i < queries.size(); ++i) {
+    test::note("query", static_cast<int64_t>(i));
+    mesh::Hint cold;
+    for (mesh::Hint* hint : {&warm, &cold}) {
+      const mesh::Closest c = mesh::closest_point(baked.view, queries[i], query::kUnlimited, *hint);
+      CHECK(c.certificate.exact || truth[i].distance < 4e-6 * baked.size);
+      check_answer(baked, c, truth[i], false);
+      if (i % 3 != 0) work_about_axis += c.certificate.work;
+    }
+  }
+  // To measure all again takes eight times as much.
+  CHECK_LE(work_about_axis / (queries.size() * 4 / 3), 1000u);
+}
+
+// Brute force does not see it: float32 loses far less than its bound.
+TEST(RivalsThatAreNotKept_BoundTheAnswer) {
+  tools::MeshOptions as_given;
+  as_given.max_growth = 0;
+  const BakedMesh baked(cylinder_of(160), as_given);
+  const mesh::View& view = baked.view;
+  Random random(31);
+  const auto at = [&](double reach_m) {
+    return static_cast<float>(random.between(-1, 1) * reach_m);
+  };
+  uint64_t let_go = 0;
+  for (int i = 0; i < 200; ++i) {
+    const double reach_m = std::exp(random.between(-14, -7));
+    const Vec3 p_m{at(reach_m), at(reach_m), at(0.1)};
+    mesh::NearBound bound;
+    CHECK(bound.begin(view.head(), mesh::in_box_frame(view, p_m)));
+    mesh::Search search;
+    search.p_m = p_m;
+    search.slack_m2 = mesh::Nearer::slack_m2(view.head().longest_edge_m);
+    search.start = query::kNowhere;
+    search.budget = UINT32_MAX;
+    search.band2_m2 = FLT_MAX;
+    CHECK((mesh::search_nearest<false, mesh::NearBound, mesh::WithRivals>(view, bound, search)));
+    const mesh::Rivals& rivals = search.rivals;
+    std::vector<uint32_t> known{search.best.triangle};
+    for (uint32_t k = 0; k < rivals.count; ++k) known.push_back(rivals.triangle(k));
+    float rest_m = FLT_MAX;
+    for (uint32_t t = 0; t < view.head().triangle_count; ++t) {
+      const mesh::Corners corners(view, t);
+      mesh::Foot foot;
+      mesh::find_foot_apart(p_m, {corners.a_m, corners.b_m, corners.c_m},
+                            mesh::Nearer::than_nothing(), foot);
+      if (!(foot.distance2_m2 < rivals.limit2_m2(search.best.distance2_m2)) ||
+          std::count(known.begin(), known.end(), t) != 0)
+        continue;
+      const float distance_m = std::sqrt(foot.distance2_m2);
+      rest_m = std::min(rest_m, distance_m - mesh::own_loss_m(mesh::Loss(view.head()), corners,
+                                                              foot.feature, distance_m));
+      ++let_go;
+    }
+    CHECK_LE(rivals.rest_m, rest_m);
+    mesh::Hint hint;
+    const mesh::Closest c = mesh::closest_point(view, p_m, query::kUnlimited, hint);
+    if (c.certificate.work < 1000) CHECK_LE(c.certificate.lower_m, rest_m);
+  }
+  CHECK_LE(200u * 100u, let_go);
 }
 
 TEST(EveryBudgetIsCertifiedColdAndWarm) {

@@ -104,8 +104,8 @@ double own_share(const Case& c) {
   const float reach = math::length((c.p - from) - foot.offset_m);
   const double truth = truth_of(c), reported = std::sqrt(double{foot.distance2_m2});
   return std::fabs(reported - truth) /
-         double{loss_of(c).own_m(static_cast<float>(truth), ab, reach,
-                                 foot.feature == mesh::Feature::kFace)};
+         double{mesh::Loss::own_m(static_cast<float>(truth), math::dot(ab, ab), reach,
+                                  foot.feature == mesh::Feature::kFace)};
 }
 
 double own_face_share(const Case& c) {

@@ -29,6 +29,7 @@ struct NearBound : query::NearBoxBound<kBoundUnits> {
   }
   /// For keys of oriented boxes, which open() has proven against the same roundings.
   math::HalfCellPoint half_cells() const { return math::half_cell_point(point); }
+  static constexpr uint32_t kVisitParts = 1;
   static constexpr bool kCompensated = false;  // near: plain float32 is enough, or is tried first
   /// Whether the query is certainly outside, whatever is nearest.
   constexpr bool is_outside() const { return false; }
@@ -54,6 +55,7 @@ struct FarBound : query::FarBoxBound<kBoundUnits> {
     child0 = sides[0].child;
     child1 = sides[1].child;
   }
+  static constexpr uint32_t kVisitParts = 2;  // of a work unit that a visit takes
   static constexpr bool kCompensated = true;
   constexpr bool is_outside() const { return true; }
   /// p - offset has lost the low bits of a far p: put back on its triangle.

@@ -10,7 +10,9 @@
 #include "firmtouch/mesh/compensated_distance.hpp"
 #include "firmtouch/mesh/hint.hpp"
 #include "firmtouch/mesh/layout.hpp"
+#include "firmtouch/mesh/loss.hpp"
 #include "firmtouch/mesh/triangle.hpp"
+#include "firmtouch/mesh/view.hpp"
 
 namespace firmtouch::mesh {
 
@@ -23,6 +25,14 @@ struct Best {
   Feature feature = Feature::kVertex0;
 };
 
+// A search counts in thirds of a work unit: a visit takes one (outside of the grid two), a triangle
+// two, one that is taken as the nearest or as a rival another, in double-float 24. To begin takes
+// 10 units.
+constexpr uint32_t kPartsOfUnit = 3;
+constexpr uint32_t kBeginUnits = 10;
+constexpr uint32_t kTriangleParts = 2;
+constexpr uint32_t kCompensatedParts = 24;
+
 /// Triangles that lost to the nearest by so little that the loss of float32 may have decided. Kept
 /// only of a mesh whose loss float32 cannot promise away (View::has_rivals()).
 ///
@@ -31,21 +41,41 @@ struct Best {
 /// nothing but the leaves that are read and their order.
 struct Rivals {
   static constexpr uint32_t kMax = 8;
-  uint32_t count;            // more than kMax: some are not known
-  uint32_t foot[kMax];       // feature << 24 | triangle
-  float distance2_m2[kMax];  // as computed
+  uint32_t count;
+  uint32_t foot[kMax + 1];       // feature << 24 | triangle; one more than is kept
+  float distance2_m2[kMax + 1];  // as computed
+  float rest_m;                  // none of those that were let go is nearer
+  uint32_t owed;                 // thirds of work units taken, not yet charged
   float slack_m2;
+  const View* mesh;
 
   // With l = 28 u L the loss of a near triangle and d the distance of the nearest so far: (d + l +
   // 6 u d)^2 <= d^2 (1 + 2^-12) + l^2 (2^12 + 2), and l^2 2^12 < 2^-26.3 L^2.
   static float slack_of(float longest_edge_m) { return longest_edge_m * longest_edge_m * 0x1p-26f; }
   float limit2_m2(float min2_m2) const { return min2_m2 * (1.0f + 0x1p-12f) + slack_m2; }
+  void clear() {
+    count = 0;
+    rest_m = FLT_MAX;
+  }
+  // Pre: count <= kMax. Behind it: let_go().
   void add(uint32_t triangle, Feature feature, float distance2) {
-    if (count < kMax) {
-      foot[count] = static_cast<uint32_t>(feature) << 24 | triangle;
-      distance2_m2[count] = distance2;
-    }
-    ++count;
+    foot[count] = static_cast<uint32_t>(feature) << 24 | triangle;
+    distance2_m2[count++] = distance2;
+  }
+  void let_go() {
+    if (count > kMax) let_last_go();
+  }
+  // Keeps a bound alone, by its own longest edge.
+  [[gnu::noinline, gnu::cold]] void let_last_go() {
+    count = kMax;
+    const Triangle<uint32_t> last = mesh->triangle(triangle(kMax));
+    const math::Vec3 ab_m = mesh->vertex(last.corner[1]) - mesh->vertex(last.corner[0]);
+    const float ab2_m2 = math::dot(ab_m, ab_m);
+    const float distance_m = math::square_root(distance2_m2[kMax]);
+    const float loss_m =
+        Loss::own_m(distance_m, ab2_m2, math::square_root(ab2_m2), feature(kMax) == Feature::kFace);
+    rest_m = math::smaller(rest_m, distance_m - (loss_m + mesh->head().rounding_m));
+    owed += kTriangleParts;
   }
   uint32_t triangle(uint32_t i) const { return foot[i] & 0xFFFFFFu; }
   Feature feature(uint32_t i) const { return static_cast<Feature>(foot[i] >> 24); }
@@ -160,9 +190,10 @@ static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
 }
 
 /// Takes a foot below rivals.limit2_m2() as the nearest, or as a rival. `ab_m`: the longest edge.
-/// Result: whether it is the nearest.
+/// Result: whether it is the nearest. Behind it: rivals.let_go().
 [[gnu::noinline]] inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle,
                                         uint32_t slot, Best& best, Rivals& rivals) {
+  ++rivals.owed;
   if (!(foot.distance2_m2 < best.distance2_m2)) {
     // The nearest feature of both is no rival.
     const bool is_shared = is_vertex(foot.feature) && is_vertex(best.feature) &&
@@ -173,7 +204,7 @@ static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
   }
   // Rivals of the last nearest are farther than it.
   if (!(best.distance2_m2 < rivals.limit2_m2(foot.distance2_m2)))
-    rivals.count = 0;
+    rivals.clear();
   else
     rivals.add(best.triangle, best.feature, best.distance2_m2);
   best.distance2_m2 = foot.distance2_m2;
@@ -243,7 +274,9 @@ template <class Source, bool kApart>
     }
     if (!(foot.distance2_m2 < limit2_m2)) continue;
     const Foot taken = foot;  // most are not taken, and stay in registers
-    if (take_foot(taken, shape.ab(), i, slot, best, rivals)) {
+    const bool is_nearer = take_foot(taken, shape.ab(), i, slot, best, rivals);
+    rivals.let_go();
+    if (is_nearer) {
       limit2_m2 = rivals.limit2_m2(best.distance2_m2);
       wanted = Nearer::than(limit2_m2, slack_m2);
     }

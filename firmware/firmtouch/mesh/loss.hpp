@@ -40,8 +40,8 @@ struct Loss {
   float reported_m(float distance_m) const {
     return 0x1p-24f * (6.7f * distance_m + 28.0f * longest_edge_m) + kVanishing_m;
   }
-  /// reported_m() of a triangle whose longest edge is `ab_m`, with the foot at most `reach_m` from
-  /// corner a; on the edge b c from corner b.
+  /// reported_m() of a triangle whose longest edge ab has this square, with the foot at most
+  /// `reach_m` from corner a; on the edge b c from corner b.
   ///
   /// Where the distance is more than 2^-12 of the edge, the shift in the plane adds less than u L /
   /// 16: the loss is that of the offset along itself, linear in the foot's parts X along ab and Y
@@ -49,8 +49,8 @@ struct Loss {
   /// h w: u (X + X + Y), because w xc |ab| <= X; of ab and ac themselves, which count with the
   /// foot's shares v and w: u (v |ab| + w |ac|) <= u (X + Y). Together u (r + 3 X + 4 Y) <= 6 u r;
   /// at an edge 3 u r.
-  float own_m(float distance_m, math::Vec3 ab_m, float reach_m, bool is_face) const {
-    const float ab2_m2 = ab_m.x * ab_m.x + ab_m.y * ab_m.y + ab_m.z * ab_m.z;
+  [[gnu::always_inline]] static inline float own_m(float distance_m, float ab2_m2, float reach_m,
+                                                   bool is_face) {
     const float edge_m = math::square_root(ab2_m2);
     const bool is_clear = distance_m * distance_m > ab2_m2 * 0x1p-24f;
     const float lost_m =

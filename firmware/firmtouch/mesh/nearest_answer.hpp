@@ -73,7 +73,7 @@ inline void weigh(const Search& search, float lower_m, float rounding_m, Found& 
   const Loss loss(mesh.head());
   Best& best = search.best;
   float distance_m = nearest.compensated_m(p_m, best.feature, best.distance2_m2);
-  lower_m = FLT_MAX;
+  lower_m = search.rivals.rest_m;
   for (uint32_t i = 0; i < search.rivals.count; ++i) {
     const float distance2_m2 = search.rivals.distance2_m2[i];
     if (!loss.may_be_less(distance2_m2, distance_m * distance_m)) continue;
@@ -127,7 +127,7 @@ bool measure_again(const View& mesh, float within_m, Search& search, Found& foun
     }
   }
   float lower_m, gap_m = 0.0f;
-  const bool are_all_known = mesh.has_rivals() && search.rivals.count <= Rivals::kMax;
+  bool are_all_known = mesh.has_rivals();
   if (are_all_known) {
     // What is no rival is no nearer than near_m: the losses of these triangles alone count.
     const float own_m = best_loss_m(loss, nearest, p_m, search.best, near_m);
@@ -137,9 +137,10 @@ bool measure_again(const View& mesh, float within_m, Search& search, Found& foun
       return true;
     }
     gap_m = within_m - (loss.rounding_m + 2.0f * loss.compensated_m(near_m));
-  } else {
-    search.rivals.count = 0;
+    // Else those that were let go must be measured.
+    are_all_known = near_m - own_m - search.rivals.rest_m <= gap_m;
   }
+  if (!are_all_known) search.rivals.clear();
   const float distance_m = settle(mesh, nearest, p_m, gap_m, search, lower_m);
   const float least_m = math::smaller(distance_m, near_m);
   lower_m =

@@ -29,9 +29,11 @@ struct Search : Sought {
   math::HalfCellPoint half_cells;  // of p_m; for the boxes of leaves alone
   const uint32_t* leaf_boxes;
 
-  void begin_rivals(const Head& head) {
-    rivals.count = 0;
-    rivals.slack_m2 = Rivals::slack_of(head.longest_edge_m);
+  void begin_rivals(const View& mesh) {
+    rivals.clear();
+    rivals.slack_m2 = Rivals::slack_of(mesh.head().longest_edge_m);
+    rivals.owed = 0;
+    rivals.mesh = &mesh;
   }
 };
 
@@ -44,13 +46,6 @@ struct Choice<false, First, Second> {
   using Type = Second;
 };
 
-// A search counts in thirds of a work unit: a visit takes one, a triangle two, in double-float 24.
-// To begin takes 10 units.
-constexpr uint32_t kPartsOfUnit = 3;
-constexpr uint32_t kBeginUnits = 10;
-constexpr uint32_t kTriangleParts = 2;
-constexpr uint32_t kCompensatedParts = 24;
-
 constexpr uint32_t parts_of(uint32_t units) {
   if (units > UINT32_MAX / kPartsOfUnit) return UINT32_MAX;
   return units <= kBeginUnits ? 1 : (units - kBeginUnits) * kPartsOfUnit;
@@ -61,6 +56,22 @@ inline uint32_t units_of(uint32_t parts, uint32_t allowed) {
   return units < allowed ? units : allowed;
 }
 
+// Instead of an index type: each leaf has an oriented box, which is tested before its triangles,
+// and these are measured by their stored shapes.
+struct Boxed {};
+// Instead of an index type: a mesh that has rivals (View::has_rivals()), or indices of 32 bits,
+// with oriented boxes or without.
+struct WithRivals {};
+template <class Kind>
+constexpr bool kIsBoxed = false;
+template <>
+constexpr bool kIsBoxed<Boxed> = true;
+
+template <class Kind>
+constexpr bool kHasRivals = false;
+template <>
+constexpr bool kHasRivals<WithRivals> = true;
+
 // Takes parts beyond a visit. The visit itself is still to be taken: one is left.
 [[gnu::always_inline]] inline void charge(uint32_t parts, uint32_t& left, Search& search) {
   const uint32_t taken = parts < left ? parts : left - 1;
@@ -68,9 +79,14 @@ inline uint32_t units_of(uint32_t parts, uint32_t allowed) {
   search.charged += taken;
 }
 
-template <bool kCompensated>
+template <bool kCompensated, class Index>
 [[gnu::always_inline]] inline void charge_leaf(uint32_t child, uint32_t& left, Search& search) {
-  charge((kCompensated ? kCompensatedParts : kTriangleParts) * leaf_count(child), left, search);
+  uint32_t parts = (kCompensated ? kCompensatedParts : kTriangleParts) * leaf_count(child);
+  if constexpr (kHasRivals<Index>) {
+    parts += search.rivals.owed;
+    search.rivals.owed = 0;
+  }
+  charge(parts, left, search);
 }
 
 // The cutoff by the nearest so far, or by the band. A square is never -0, so a band of 0 works.
@@ -118,22 +134,6 @@ inline bool ascend(const View& mesh, const Side* sides, const Bound& bound, uint
   return false;
 }
 
-// Instead of an index type: each leaf has an oriented box, which is tested before its triangles,
-// and these are measured by their stored shapes.
-struct Boxed {};
-// Instead of an index type: a mesh that has rivals (View::has_rivals()), or indices of 32 bits,
-// with oriented boxes or without.
-struct WithRivals {};
-template <class Kind>
-constexpr bool kIsBoxed = false;
-template <>
-constexpr bool kIsBoxed<Boxed> = true;
-
-template <class Kind>
-constexpr bool kHasRivals = false;
-template <>
-constexpr bool kHasRivals<WithRivals> = true;
-
 template <class Kind>
 struct Triangles {
   using Source = LeafCorners<Kind>;
@@ -162,7 +162,7 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
     search.is_narrow = !mesh.triangles16().empty();
     search.triangles = search.is_narrow ? static_cast<const void*>(mesh.triangles16().data())
                                         : mesh.triangles32().data();
-    search.begin_rivals(mesh.head());
+    search.begin_rivals(mesh);
   } else {
     search.vertices = mesh.vertices().data();
     search.triangles = triangles_of<Index>(mesh).data();
@@ -300,7 +300,7 @@ template <bool kCompensated, class Bound, class Index>
   if (search.start != query::kNowhere) {
     const uint32_t last = sides[search.start].child;
     search.charged = 0;
-    charge_leaf<kCompensated>(last, left, search);
+    charge_leaf<kCompensated, Index>(last, left, search);
     --left;
     measure<kCompensated, Index, Which::kLast>(mesh, 0, last, search.start, search);
     prune = prune_key(bound, search);
@@ -322,9 +322,10 @@ template <bool kCompensated, class Bound, class Index>
   }
   for (bool is_left = left != 0; is_left; is_left = math::count_down(left)) {
     if (!is_leaf(child)) {
+      if constexpr (Bound::kVisitParts > 1) charge(Bound::kVisitParts - 1, left, search);
       if (enter(sides, bound, prune, child, slot, top)) continue;
     } else {
-      charge_leaf<kCompensated>(child, left, search);
+      charge_leaf<kCompensated, Index>(child, left, search);
       if (measure<kCompensated, Index, Which::kBeside>(mesh, prune, child, slot, search))
         prune = prune_key(bound, search);
     }

@@ -19,6 +19,7 @@ struct Corners {
         a_m(mesh.vertex(index.corner[0])),
         b_m(mesh.vertex(index.corner[1])),
         c_m(mesh.vertex(index.corner[2])) {}
+  [[gnu::always_inline]] inline float ab2_m2() const { return math::dot(b_m - a_m, b_m - a_m); }
   [[gnu::always_inline]] inline float compensated_m(Vec3 p_m, Feature feature,
                                                     float distance2_m2) const {
     return math::square_root(nearest_compensated2(p_m, a_m, b_m, c_m, feature, distance2_m2));
@@ -28,8 +29,8 @@ struct Corners {
 // What float32 and the rounding of the model can have lost of a triangle, by its own edges.
 inline float own_loss_m(const Loss& loss, const Corners& corners, Feature feature,
                         float distance_m) {
-  const Vec3 ab_m = corners.b_m - corners.a_m;
-  return loss.own_m(distance_m, ab_m, math::length(ab_m), feature == Feature::kFace) +
+  const float ab2_m2 = corners.ab2_m2();
+  return Loss::own_m(distance_m, ab2_m2, math::square_root(ab2_m2), feature == Feature::kFace) +
          loss.rounding_m;
 }
 // The same of the nearest, whose foot is known.
@@ -37,14 +38,13 @@ inline float best_loss_m(const Loss& loss, const Corners& corners, Vec3 p_m, con
                          float distance_m) {
   const Vec3& from_m = best.feature == Feature::kEdge1 ? corners.b_m : corners.a_m;
   const float reach_m = math::length((p_m - from_m) - best.offset_m);
-  return loss.own_m(distance_m, corners.b_m - corners.a_m, reach_m,
-                    best.feature == Feature::kFace) +
+  return Loss::own_m(distance_m, corners.ab2_m2(), reach_m, best.feature == Feature::kFace) +
          loss.rounding_m;
 }
 
 // The least distance that each of the rivals may truly have.
 inline float rivals_lower_m(const View& mesh, const Loss& loss, const Search& search) {
-  float lower_m = FLT_MAX;
+  float lower_m = search.rivals.rest_m;
   for (uint32_t i = 0; i < search.rivals.count; ++i) {
     const float rival_m = math::square_root(search.rivals.distance2_m2[i]);
     const Corners corners(mesh, search.rivals.triangle(i));

@@ -39,14 +39,13 @@ bool bake_trial(const Surface& surface, MeshOptions options, Trial& trial) {
 
 // Whether float32 may have lost too much of the nearest triangle (mesh/nearest_answer.hpp).
 bool is_measured_again(const mesh::View& mesh, const mesh::Closest& closest) {
-  const mesh::Loss loss(mesh.head());
   const mesh::Triangle<uint32_t> t = mesh.triangle(closest.triangle);
   const Vec3 a_m = mesh.vertex(t.corner[0]), b_m = mesh.vertex(t.corner[1]);
   const Vec3 from_m = closest.feature == mesh::Feature::kEdge1 ? b_m : a_m;
-  const float own_m =
-      loss.own_m(closest.distance_m, b_m - a_m, math::length(closest.point_m - from_m),
-                 closest.feature == mesh::Feature::kFace) +
-      loss.rounding_m;
+  const float own_m = mesh::Loss::own_m(closest.distance_m, math::dot(b_m - a_m, b_m - a_m),
+                                        math::length(closest.point_m - from_m),
+                                        closest.feature == mesh::Feature::kFace) +
+                      mesh.head().rounding_m;
   return 2 * own_m > mesh::kPromise * mesh.head().diagonal_m;
 }
 

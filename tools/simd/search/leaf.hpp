@@ -156,6 +156,7 @@ static inline bool take_rivals(const Feet& feet, const CornerArrays& corners, ui
                           static_cast<Feature>(lane_of(features, lane))};
     is_nearer |= mesh::take_foot(foot, corners.corner(1, lane) - corners.corner(0, lane),
                                  first + lane, slot, best, rivals);
+    rivals.let_go();
   }
   return is_nearer;
 }

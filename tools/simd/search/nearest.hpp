@@ -104,7 +104,7 @@ template <bool kRivals>
   uint64_t again;
   const uint32_t* const boxes = children[root].side[0].box;
   sibling_distances2(boxes, boxes, bound.point, now.keys, again);
-  if constexpr (kRivals) search.begin_rivals(mesh.head());
+  if constexpr (kRivals) search.begin_rivals(mesh);
   uint32_t steps = 1;
   while (true) {
     while (true) {  // from inner node to inner node, branchless
@@ -234,7 +234,7 @@ template <bool kRivals>
   uint32_t clear = query::kNowhere;
   const BlockTriangles last(tree, sides[search.start].child);
   if constexpr (kRivals) {
-    search.begin_rivals(mesh.head());
+    search.begin_rivals(mesh);
     take_leaf_rivals(last, p_m, search.start, search);
   } else {
     clear = measure_last_leaf(last, p_m, search.start, triangle_low, slack_m2, best);
