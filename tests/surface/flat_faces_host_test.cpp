@@ -119,18 +119,7 @@ TEST(ANeedleAcrossANeckIsRefused) {
                                  {1, 1, -1},
                                  {-1, 0, 1},
                                  {0, 0, -2}},
-                                {{0, 1, 2},
-                                 {0, 2, 6},
-                                 {0, 6, 1},
-                                 {1, 4, 5},
-                                 {1, 5, 2},
-                                 {2, 5, 3},
-                                 {2, 3, 6},
-                                 {6, 3, 4},
-                                 {6, 4, 1},
-                                 {7, 5, 4},
-                                 {7, 3, 5},
-                                 {7, 4, 3}});
+                                faces_of("012 026 061 145 152 253 236 634 641 754 735 743"));
   CHECK(is_closed_and_alike(tube));
   Surface strict = tube, loose = tube;
   const CheckReport report = check_and_mend(strict, {});

@@ -21,9 +21,19 @@ inline Surface numbered(std::vector<math::Vec3> vertices, std::vector<Face> face
   return surface;
 }
 
+/// Triangles of up to ten vertices, written as "021 013 ...".
+inline std::vector<Face> faces_of(const char* text) {
+  std::vector<Face> faces;
+  for (uint32_t k = 0; *text != 0; ++text) {
+    if (*text == ' ') continue;
+    if (k % 3 == 0) faces.emplace_back();
+    faces.back()[k++ % 3] = static_cast<uint32_t>(*text - '0');
+  }
+  return faces;
+}
+
 inline Surface tetrahedron() {
-  return numbered({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                  {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  return numbered({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, faces_of("021 013 123 032"));
 }
 
 /// A cube of side 2 * half about `centre`, outward; quads 0123 from below, then as the file formats
@@ -35,18 +45,7 @@ inline Surface cube(math::Vec3 centre = {0, 0, 0}, float half = 1) {
                         centre.y + ((k & 2) != 0 ? half : -half),
                         centre.z + ((k & 4) != 0 ? half : -half)});
   }
-  return numbered(vertices, {{0, 2, 3},
-                             {0, 3, 1},
-                             {4, 5, 7},
-                             {4, 7, 6},
-                             {0, 1, 5},
-                             {0, 5, 4},
-                             {2, 6, 7},
-                             {2, 7, 3},
-                             {0, 4, 6},
-                             {0, 6, 2},
-                             {1, 3, 7},
-                             {1, 7, 5}});
+  return numbered(vertices, faces_of("023 031 457 476 015 054 267 273 046 062 137 175"));
 }
 
 inline void append(Surface& to, const Surface& more) {

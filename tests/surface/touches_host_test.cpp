@@ -9,8 +9,7 @@ namespace {
 // A tetrahedron, outward, with its first corner at `tip` and the others at `tip` + a, b, c.
 Surface spike(math::Vec3 tip, math::Vec3 a, math::Vec3 b, math::Vec3 c) {
   const auto plus = [&](math::Vec3 v) { return math::Vec3{tip.x + v.x, tip.y + v.y, tip.z + v.z}; };
-  Surface surface =
-      numbered({tip, plus(a), plus(b), plus(c)}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  Surface surface = numbered({tip, plus(a), plus(b), plus(c)}, tetrahedron().faces);
   if (volume_of(surface) < 0)
     for (Face& face : surface.faces) turn(face);
   return surface;
@@ -84,32 +83,18 @@ TEST(AConvexCornerOnAConvexEdgeIsHarmless) {
 
 TEST(ACornerOnAReflexEdgeIsRefused) {
   // A cube with a roof turned inward: the ridge from (-1, 0, 0) to (1, 0, 0).
-  const Surface valley = numbered({{-1, -1, -1},
-                                   {1, -1, -1},
-                                   {1, 1, -1},
-                                   {-1, 1, -1},
-                                   {-1, -1, 1},
-                                   {1, -1, 1},
-                                   {1, 1, 1},
-                                   {-1, 1, 1},
-                                   {-1, 0, 0},
-                                   {1, 0, 0}},
-                                  {{0, 2, 1},
-                                   {0, 3, 2},
-                                   {0, 1, 5},
-                                   {0, 5, 4},
-                                   {2, 3, 7},
-                                   {2, 7, 6},
-                                   {4, 5, 9},
-                                   {4, 9, 8},
-                                   {8, 9, 6},
-                                   {8, 6, 7},
-                                   {1, 2, 9},
-                                   {1, 9, 5},
-                                   {2, 6, 9},
-                                   {0, 4, 8},
-                                   {0, 8, 3},
-                                   {3, 8, 7}});
+  const Surface valley =
+      numbered({{-1, -1, -1},
+                {1, -1, -1},
+                {1, 1, -1},
+                {-1, 1, -1},
+                {-1, -1, 1},
+                {1, -1, 1},
+                {1, 1, 1},
+                {-1, 1, 1},
+                {-1, 0, 0},
+                {1, 0, 0}},
+               faces_of("021 032 015 054 237 276 459 498 896 867 129 195 269 048 083 387"));
   CHECK(is_closed_and_alike(valley));
   Surface surface = valley;
   append(surface, spike({0.25f, 0, 0}, {0.1f, 0, 1}, {-0.1f, 0.1f, 1}, {-0.1f, -0.1f, 1}));
