@@ -61,19 +61,11 @@ plants() {
 a_figure_of_nothing @ firmware/firmtouch/mesh/loss.hpp @ /// Bounds: about 90 instructions. @ mesh/loss.hpp: 90 instructions are stated and not measured
 END
 }
-plant_too_small_figure() {
-  edit firmware/firmtouch/scene/stored_objects.hpp 's/45,000/8,000/'
-  expect='scene/stored_objects.hpp: 8000 instructions are stated, the worst seen is'
-}
-plant_generous_figure() {
-  edit firmware/firmtouch/query/coherence.hpp 's/about 90 i/about 900 i/'
-  expect='query/coherence.hpp: 900 instructions are stated, the worst seen is'
-}
-plant_figure_over_two_lines() {
-  edit firmware/firmtouch/mesh/compensated_distance.hpp 's/200 instructions at a/20 instructions at a/'
-  expect='mesh/compensated_distance.hpp: 20 instructions are stated'
-}
-plant_figure_taken_away() {
-  edit firmware/firmtouch/math/arithmetic_check.hpp 's/420 instructions/some instructions/'
-  expect='math/arithmetic_check.hpp: 1 figures are measured, 0 stated'
+edits() {
+  cat <<'END'
+too_small_figure @ firmware/firmtouch/scene/stored_objects.hpp @ s/45,000/8,000/ @ scene/stored_objects.hpp: 8000 instructions are stated, the worst seen is
+generous_figure @ firmware/firmtouch/query/coherence.hpp @ s/about 90 i/about 900 i/ @ query/coherence.hpp: 900 instructions are stated, the worst seen is
+figure_over_two_lines @ firmware/firmtouch/mesh/compensated_distance.hpp @ s/200 instructions at a/20 instructions at a/ @ mesh/compensated_distance.hpp: 20 instructions are stated
+figure_taken_away @ firmware/firmtouch/math/arithmetic_check.hpp @ s/420 instructions/some instructions/ @ math/arithmetic_check.hpp: 1 figures are measured, 0 stated
+END
 }

@@ -13,19 +13,11 @@ check() {
     LC_ALL=C sort | xargs awk -f "$here/contexts.awk" hal/firmtouch/hal/*.hpp
 }
 
-plant_unstated_context() {
-  edit hal/firmtouch/hal/board.hpp 's/^\(.*Name of the board.*\) Context: any\./\1/'
-  expect='board.hpp: board_name\(\) states no context'
-}
-plant_servo_interrupt_left_out() {
-  edit hal/firmtouch/hal/encoders.hpp 's/Context: servo interrupt/Context: main loop/'
-  expect='encoders_read\(\) is called from the servo interrupt'
-}
-plant_fault_handler_left_out() {
-  edit hal/firmtouch/hal/board.hpp 's/main loop, fault handler; never/main loop; never/'
-  expect='board_print\(\) is called from the fault handler'
-}
-plant_main_loop_left_out() {
-  edit hal/firmtouch/hal/link.hpp 's/Context: main loop/Context: servo interrupt/'
-  expect='link_read\(\) is called from the main loop'
+edits() {
+  cat <<'END'
+unstated_context @ hal/firmtouch/hal/board.hpp @ s/^\(.*Name of the board.*\) Context: any\./\1/ @ board.hpp: board_name\(\) states no context
+servo_interrupt_left_out @ hal/firmtouch/hal/encoders.hpp @ s/Context: servo interrupt/Context: main loop/ @ encoders_read\(\) is called from the servo interrupt
+fault_handler_left_out @ hal/firmtouch/hal/board.hpp @ s/main loop, fault handler; never/main loop; never/ @ board_print\(\) is called from the fault handler
+main_loop_left_out @ hal/firmtouch/hal/link.hpp @ s/Context: main loop/Context: servo interrupt/ @ link_read\(\) is called from the main loop
+END
 }

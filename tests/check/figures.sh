@@ -11,17 +11,12 @@ not_run() {
 
 check() { awk -f "$here/figures.awk" "$table" README.md firmware/firmtouch/hull/README.md; }
 
-plant_wrong_number() {
-  edit README.md '/`tools\/bench\/cortex-m7` |$/s/worst [0-9,]*/worst 1,234/'
-  expect='^\| query with sign .*\| mean [0-9,]+, worst [0-9,]+ \| `tools/bench/cortex-m7` \|$'
-}
-plant_wrong_flash() {
-  edit README.md '/`tools\/check\/image netduinoplus2`/s/| [0-9,]* B,/| 12,345 B,/'
-  expect='Cortex-M4F \| [0-9,]+ B, [0-9,]+ B, [0-9,]+ B \|'
-}
-plant_wrong_figure_of_a_module() {
-  edit firmware/firmtouch/hull/README.md 's/and worst [0-9,]* instructions/and worst 1,234 instructions/'
-  expect='hull/README.md: the base hull of the demo part was measured with mean'
+edits() {
+  cat <<'END'
+wrong_number @ README.md @ /`tools\/bench\/cortex-m7` |$/s/worst [0-9,]*/worst 1,234/ @ ^\| query with sign .*\| mean [0-9,]+, worst [0-9,]+ \| `tools/bench/cortex-m7` \|$
+wrong_flash @ README.md @ /`tools\/check\/image netduinoplus2`/s/| [0-9,]* B,/| 12,345 B,/ @ Cortex-M4F \| [0-9,]+ B, [0-9,]+ B, [0-9,]+ B \|
+wrong_figure_of_a_module @ firmware/firmtouch/hull/README.md @ s/and worst [0-9,]* instructions/and worst 1,234 instructions/ @ hull/README.md: the base hull of the demo part was measured with mean
+END
 }
 plant_lost_row() {
   grep -v 'tools/check/image mps2-an500' README.md >new.md

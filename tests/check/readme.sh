@@ -59,17 +59,15 @@ check() {
   return $bad
 }
 
-plant_changed_block() {
-  edit README.md 's/hal::board_begin();/hal::board_begin(1);/'
-  expect='the block of .*minimal/main.cpp is not what the file says'
+edits() {
+  cat <<'END'
+changed_block @ README.md @ s/hal::board_begin();/hal::board_begin(1);/ @ the block of .*minimal/main.cpp is not what the file says
+interface_that_moved_on @ hal/firmtouch/hal/clock.hpp @ s/clock_us()/clock_microseconds()/ @ the block of .*minimal/main.cpp does not compile
+END
 }
 plant_changed_source() {
   echo '// one more line' >>tests/consumer/minimal/main.cpp
   expect='the block of .*minimal/main.cpp is not what the file says'
-}
-plant_interface_that_moved_on() {
-  edit hal/firmtouch/hal/clock.hpp 's/clock_us()/clock_microseconds()/'
-  expect='the block of .*minimal/main.cpp does not compile'
 }
 plant_loose_code() {
   printf '\n```cpp\nint nobody_compiles_this;\n```\n' >>README.md

@@ -34,7 +34,9 @@ check_model() {
   return 1
 }
 
-plant_in_model() {  # plant_in_model MODEL BUG: the model with this defect
-  printf '#define %s\n' "$2" | cat - "$1" >model.new && mv model.new "$1"
-  expect='assertion violated'
+# bugs_of MODEL: prints an edit for each `BUG_` of the model, which switches it on
+bugs_of() {
+  sed -n 's/^#ifn*def BUG_\([A-Z_]*\)$/\1/p' "$1" | while read -r bug; do
+    echo "$(echo "$bug" | tr '[:upper:]' '[:lower:]') @ $1 @ s/^#ifdef BUG_$bug\$/#if 1/;s/^#ifndef BUG_$bug\$/#if 0/ @ assertion violated"
+  done
 }

@@ -44,21 +44,13 @@ check() {
   return $bad
 }
 
-plant_too_small_figure() {
-  edit firmware/firmtouch/mesh/closest_point.hpp 's/[0-9.]* KB of stack/1 KB of stack/'
-  expect='mesh::closest_point states 1024 bytes of stack and takes'
-}
-plant_generous_figure() {
-  edit firmware/firmtouch/mesh/closest_point.hpp 's/[0-9.]* KB of stack/9 KB of stack/'
-  expect='mesh::closest_point states 9216 bytes of stack and takes'
-}
-plant_figure_over_two_lines() {
-  edit firmware/firmtouch/mesh/exact_crossing.hpp 's/1\.9 KB of/1.2 KB of/'
-  expect='mesh::exact_crossing states 1228 bytes of stack and takes'
-}
-plant_figure_of_a_class() {
-  edit firmware/firmtouch/spline/proof/opening.hpp 's/3 KB of stack/300 B of stack/'
-  expect='5Proof\* states 300 bytes of stack and takes'
+edits() {
+  cat <<'END'
+too_small_figure @ firmware/firmtouch/mesh/closest_point.hpp @ s/[0-9.]* KB of stack/1 KB of stack/ @ mesh::closest_point states 1024 bytes of stack and takes
+generous_figure @ firmware/firmtouch/mesh/closest_point.hpp @ s/[0-9.]* KB of stack/9 KB of stack/ @ mesh::closest_point states 9216 bytes of stack and takes
+figure_over_two_lines @ firmware/firmtouch/mesh/exact_crossing.hpp @ s/1\.9 KB of/1.2 KB of/ @ mesh::exact_crossing states 1228 bytes of stack and takes
+figure_of_a_class @ firmware/firmtouch/spline/proof/opening.hpp @ s/3 KB of stack/300 B of stack/ @ 5Proof\* states 300 bytes of stack and takes
+END
 }
 plant_figure_of_nothing() {
   printf '/// Bounds: 3 KB of stack.\nconstexpr int kPlanted = 3;\n' >>firmware/firmtouch/mesh/loss.hpp
