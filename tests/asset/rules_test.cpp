@@ -1,8 +1,8 @@
 // Each rule of the container, tripped alone: one thing is wrong, every CRC but the one under test
 // fits.
+#include "harness/rules.hpp"
 #include "asset/small_file.hpp"
 #include "firmtouch/asset/opening.hpp"
-#include "harness/test.hpp"
 
 namespace {
 
@@ -15,12 +15,7 @@ constexpr uint32_t kSecond = 80, kThird = 128;  // entries
 constexpr uint32_t kOffset = 4, kBytes = 8, kCrc = 12, kName = 16;
 constexpr uint32_t kData = SmallFile::kData;
 
-Verdict verdict_of(Bytes bytes) {
-  Container container;
-  const Verdict verdict = firmtouch::asset::open(bytes, container);
-  CHECK_EQ(verdict.ok(), container.is_open());
-  return verdict;
-}
+Verdict verdict_of(Bytes bytes) { return firmtouch::test::verdict_of<Container>(bytes); }
 
 void expect(const SmallFile& file, uint32_t rule, uint32_t element = 0) {
   const Verdict verdict = verdict_of(file.all());

@@ -1,20 +1,19 @@
 // Each rule of a curve, tripped alone: one thing is wrong, all that follows from it fits.
 #include "curve/rule_curves.hpp"
+#include "harness/float_bits.hpp"
 #include "harness/slices.hpp"
-#include "harness/test.hpp"
 
 namespace {
 
 using firmtouch::core::Verdict;
 using namespace firmtouch::curve;       // NOLINT: a test file
 using namespace firmtouch::curve_test;  // NOLINT
+using firmtouch::test::nan_value;
 
 constexpr Sample kHook[] = {{0, 0, 0},           {0.125f, 0, 0},
                             {0.25f, 0.0625f, 0}, {0.25f, 0.25f, 0.5f},
                             {0, 0.25f, 0.25f},   {-0.5f, 0.125f, 0}};
 constexpr Sample kRing[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}};
-
-float nan_value() { return __builtin_nanf(""); }
 
 // A section that is `less` or `more` bytes away from its size is rejected.
 void check_sizes(const Sections& sections, firmtouch::core::Bytes Sections::*section, uint32_t less,

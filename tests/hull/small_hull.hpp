@@ -2,7 +2,7 @@
 // A baked hull in memory that a test may change, without heap: one copy, made anew each time.
 #include "firmtouch/asset/opening.hpp"
 #include "firmtouch/hull/view.hpp"
-#include "harness/test.hpp"
+#include "harness/rules.hpp"
 #include "small_hull_words.hpp"
 
 namespace firmtouch::hull_test {
@@ -85,5 +85,21 @@ struct SmallHull {
                                                      hull::padded(2 * base_hull_head().made_count));
   }
 };
+
+/// What open() says of a hull in which something is changed.
+template <class Change>
+core::Verdict verdict_with(Change change) {
+  SmallHull small;
+  change(small);
+  return test::verdict_of<hull::View>(small.sections);
+}
+template <class Change>
+uint32_t refusal_with(Change change) {
+  return test::refusal(verdict_with(change));
+}
+template <class Change>
+uint32_t rule_with(Change change) {
+  return verdict_with(change).rule;
+}
 
 }  // namespace firmtouch::hull_test

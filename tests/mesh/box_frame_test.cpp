@@ -48,12 +48,12 @@ TEST(R106BoxFrameIsNotSound) {
   for (uint32_t i = 0; i < 3; ++i)
     for (uint32_t k = 0; k < 3; ++k) {
       CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.axis[i][k] += 0x1p-17f; }), 106'007u);
-      CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.axis[i][k] = quiet_nan(); }), 106'007u);
+      CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.axis[i][k] = nan_value(); }), 106'007u);
       CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.axis[i][k] += 0x1p-20f; }), 0u);
     }
   for (uint32_t k = 0; k < 3; ++k) {
     CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.centre_m[k] = 2e7f; }), 106'007u);
-    CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.centre_m[k] = quiet_nan(); }), 106'007u);
+    CHECK_EQ(refusal_with([&](TurnedCube& t) { t.frame.centre_m[k] = nan_value(); }), 106'007u);
   }
 }
 

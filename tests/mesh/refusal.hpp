@@ -1,28 +1,24 @@
 #pragma once
 // What open() says of a mesh, as one number, so that a test states rule and element at once.
 #include "cube.hpp"
-#include "harness/test.hpp"
+#include "harness/float_bits.hpp"
+#include "harness/rules.hpp"
 
 namespace firmtouch::mesh_test {
 
-/// Rule * 1000 + element: 106'004 is element 4 of R106; 0 is a mesh that passes.
+using test::nan_value;
+using test::shorter;
+
 inline uint32_t refusal_of(const mesh::Sections& sections) {
-  mesh::View view;
-  const core::Verdict verdict = mesh::open(sections, view);
-  CHECK_EQ(verdict.ok(), view.is_open());
-  return verdict.rule * 1000u + verdict.element;
+  return test::refusal(test::verdict_of<mesh::View>(sections));
 }
 inline uint32_t refusal_of(const Cube& cube) { return refusal_of(cube.sections()); }
-
-inline core::Bytes shorter(core::Bytes bytes, uint32_t by) {
-  return {bytes.data(), bytes.size() - by};
-}
-
-inline float quiet_nan() {
-  const uint32_t bits = 0x7FC00000;
-  float value;
-  __builtin_memcpy(&value, &bits, sizeof value);
-  return value;
+/// The same of a cube in which something is changed.
+template <class Change>
+uint32_t cube_with(Change change) {
+  Cube cube;
+  change(cube);
+  return refusal_of(cube);
 }
 
 }  // namespace firmtouch::mesh_test
