@@ -90,6 +90,14 @@ struct Rig : JointsRig<FullController> {
   }
 };
 
+void check_homes_anew(Rig& rig) {
+  rig.tick(0, record::kCommandClearFaults);
+  rig.enable();
+  CHECK(!rig.is_not_homed());
+  for (int i = 0; i < 10; ++i) rig.tick(record::kFlagEnable);
+  CHECK_LE(rig.off_m(), 2e-4);
+}
+
 }  // namespace
 
 TEST(HomedDevice_ByStops_RendersOnlyAfterIt) {
@@ -132,11 +140,7 @@ TEST(HomedDevice_DisabledOrStopped_HasNoTorque_AndBeginsAnew) {
     rig.tick(flags);
     CHECK(!rig.is_homing() && !record::may_push(rig.output));
     for (const float torque_Nm : rig.output.motor_N) CHECK_LE(std::fabs(torque_Nm), 0.0f);
-    rig.tick(0, record::kCommandClearFaults);
-    rig.enable();
-    CHECK(!rig.is_not_homed());
-    for (int i = 0; i < 10; ++i) rig.tick(record::kFlagEnable);
-    CHECK_LE(rig.off_m(), 2e-4);
+    check_homes_anew(rig);
   }
 }
 
@@ -173,11 +177,7 @@ TEST(HomedDevice_LostEncoder_IsHomedAnew) {
   rig.from[1] += 700;  // counts that nobody saw
   for (int i = 0; i < 40; ++i) rig.tick(record::kFlagEnable);
   CHECK(rig.is_not_homed() && !record::may_push(rig.output));
-  rig.tick(0, record::kCommandClearFaults);
-  rig.enable();
-  CHECK(!rig.is_not_homed());
-  for (int i = 0; i < 10; ++i) rig.tick(record::kFlagEnable);
-  CHECK_LE(rig.off_m(), 2e-4);
+  check_homes_anew(rig);
 }
 
 // A model that was made before a loss names an object; the bits of the record are then homing's.

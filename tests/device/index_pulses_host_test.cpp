@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/stored_bar.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/random.hpp"
@@ -25,25 +26,15 @@ struct Stored {
 // A five-bar whose joints have 2 rad of range.
 Stored bar(float counts_per_rad = 2200) {
   Stored to = {};
-  device::LinkageLayout& l = to.homed.linkage;
-  l.kind = device::kFiveBar;
-  l.joints = 2;
+  to.homed.linkage = device_test::stored_bar(counts_per_rad, .25f, 2.25f);
   to.homed.homing.by = static_cast<uint32_t>(device::HomeBy::kStops);
   to.homed.homing.speed_rad_per_s = 6;
   to.homed.homing.margin_rad = .1f;
   for (uint32_t k = 0; k < 2; ++k) {
-    l.length_m[k] = .07f;
-    l.length_m[2 + k] = .09f;
-    l.joint[k] = {counts_per_rad, 0, .25f, 2.25f};
-    l.max_torque_Nm[k] = .3f;
     to.homed.homing.torque_Nm[k] = .1f;
     to.index.index_rad[k] = .7f;
     to.index.period_rad[k] = .6f;
   }
-  l.torque_rise_s = .002f;
-  l.max_speed_rad_per_s = 100;
-  l.full_from = .1f;
-  l.gone_at = .05f;
   to.index.within_rad = 20 / std::fabs(counts_per_rad);
   return to;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "device/stored_bar.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/random.hpp"
@@ -22,20 +23,10 @@ struct Stored {
 
 Stored bar(float first, float second) {
   Stored to = {};
-  device::LinkageLayout& l = to.linkage;
-  l.kind = device::kFiveBar;
-  l.joints = 2;
+  to.linkage = device_test::stored_bar(first);
   for (uint32_t k = 0; k < 2; ++k) {
-    l.length_m[k] = .07f;
-    l.length_m[2 + k] = .09f;
-    l.joint[k] = {first, 0, .5f, 2};
-    l.max_torque_Nm[k] = .3f;
     to.second.counts_per_rad[k] = second;
   }
-  l.torque_rise_s = .002f;
-  l.max_speed_rad_per_s = 100;
-  l.full_from = .1f;
-  l.gone_at = .05f;
   to.second.within_rad = static_cast<float>(kWithin_rad);
   return to;
 }

@@ -1,6 +1,7 @@
 // Homing as an asset stores it: each word broken alone.
 #include "firmtouch/device/stored_homing.hpp"
 
+#include "device/stored_bar.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/test.hpp"
@@ -13,21 +14,11 @@ namespace {
 HomedLinkageLayout bar(device::HomeBy by) {
   const bool is_by_stops = by == device::HomeBy::kStops;
   HomedLinkageLayout to = {};
-  device::LinkageLayout& l = to.linkage;
-  l.kind = device::kFiveBar;
-  l.joints = 2;
+  to.linkage = device_test::stored_bar(2200);
   for (uint32_t k = 0; k < 2; ++k) {
-    l.length_m[k] = .07f;
-    l.length_m[2 + k] = .09f;
-    l.joint[k] = {2200, 0, .5f, 2};
-    l.max_torque_Nm[k] = .3f;
     to.homing.torque_Nm[k] = is_by_stops ? .1f : 0;
     to.homing.pose_rad[k] = is_by_stops ? 0 : 1.f;
   }
-  l.torque_rise_s = .002f;
-  l.max_speed_rad_per_s = 100;
-  l.full_from = .1f;
-  l.gone_at = .05f;
   to.homing.by = static_cast<uint32_t>(by);
   to.homing.margin_rad = .1f;
   to.homing.speed_rad_per_s = is_by_stops ? 6.f : 0;

@@ -73,6 +73,20 @@ double nearest_sample(const tools::SplineSurface& s, Point p, int samples) {
   return best;
 }
 
+// `check(surface, feet, point)` at points about surfaces that differ.
+template <class Check>
+void about_hilly_surfaces(const Check& check) {
+  for (uint64_t seed = 1; seed <= 10; ++seed) {
+    test::note("seed", static_cast<int64_t>(seed));
+    tools::Random random(seed);
+    const tools::SplineSurface s = tools::hilly_surface(seed, 7, 0.25, seed % 2 == 0);
+    const Footpoints feet = of_surface(s);
+    for (int k = 0; k < 6; ++k)
+      check(s, feet,
+            Point{random.between(-0.2, 1.2), random.between(-0.2, 1.2), random.between(-0.6, 0.6)});
+  }
+}
+
 }  // namespace
 
 TEST(FootPointsOfCurvesAreAllTurnsOfTheDistance) {
@@ -186,52 +200,36 @@ TEST(RepeatedControlPointsAndCornersAreListed) {
 }
 
 TEST(TheNearestFootPointIsTheNearestPointOfTheSurface) {
-  for (uint64_t seed = 1; seed <= 8; ++seed) {
-    test::note("seed", static_cast<int64_t>(seed));
-    tools::Random random(seed);
-    const tools::SplineSurface s = tools::hilly_surface(seed, 6, 0.2, seed % 2 == 0);
-    const Footpoints feet = of_surface(s);
-    for (int k = 0; k < 6; ++k) {
-      const Point p = {random.between(-0.2, 1.2), random.between(-0.2, 1.2),
-                       random.between(-0.6, 0.6)};
-      const double sampled = nearest_sample(s, p, 150), reported = all(feet, p).front().distance_m;
-      CHECK_LE(reported, sampled + 1e-12);
-      CHECK_GE(reported, sampled - 1e-6);
-    }
-  }
+  about_hilly_surfaces([](const tools::SplineSurface& s, const Footpoints& feet, Point p) {
+    const double sampled = nearest_sample(s, p, 150), reported = all(feet, p).front().distance_m;
+    CHECK_LE(reported, sampled + 1e-12);
+    CHECK_GE(reported, sampled - 1e-6);
+  });
 }
 
 TEST(EveryFootPointOfASurfaceIsNormalToItAndOfItsKind) {
-  for (uint64_t seed = 1; seed <= 10; ++seed) {
-    test::note("seed", static_cast<int64_t>(seed));
-    tools::Random random(seed);
-    const tools::SplineSurface s = tools::hilly_surface(seed, 7, 0.25, seed % 2 == 0);
-    const Footpoints feet = of_surface(s);
-    for (int k = 0; k < 5; ++k) {
-      const Point p = {random.between(-0.1, 1.1), random.between(-0.1, 1.1),
-                       random.between(-0.6, 0.6)};
-      for (const Footpoint& f : all(feet, p)) {
-        CHECK_LE(tools::length(point_at(s, f.u, f.v) - f.point_m), 1e-12);
-        if (f.kind == FootKind::kEnd) continue;
-        const double e = 1e-4;
-        if (f.u < s.u0 + e || f.u > s.u1 - e || f.v < s.v0 + e || f.v > s.v1 - e) continue;
-        const auto d2 = [&](double a, double b) {
-          const Point d = point_at(s, f.u + a * e, f.v + b * e) - p;
-          return dot(d, d);
-        };
-        const double here = d2(0, 0), uu = d2(1, 0) + d2(-1, 0) - 2 * here,
-                     vv = d2(0, 1) + d2(0, -1) - 2 * here,
-                     uv = (d2(1, 1) + d2(-1, -1) - d2(1, -1) - d2(-1, 1)) / 4;
-        CHECK_LE(std::fabs(d2(1, 0) - d2(-1, 0)), 1e-10);
-        CHECK_LE(std::fabs(d2(0, 1) - d2(0, -1)), 1e-10);
-        if (std::fabs(uu * vv - uv * uv) < 1e-19) continue;
-        const FootKind kind = uu * vv < uv * uv ? FootKind::kSaddle
-                              : uu > 0          ? FootKind::kMin
-                                                : FootKind::kMax;
-        CHECK(kind == f.kind);
-      }
+  about_hilly_surfaces([](const tools::SplineSurface& s, const Footpoints& feet, Point p) {
+    for (const Footpoint& f : all(feet, p)) {
+      CHECK_LE(tools::length(point_at(s, f.u, f.v) - f.point_m), 1e-12);
+      if (f.kind == FootKind::kEnd) continue;
+      const double e = 1e-4;
+      if (f.u < s.u0 + e || f.u > s.u1 - e || f.v < s.v0 + e || f.v > s.v1 - e) continue;
+      const auto d2 = [&](double a, double b) {
+        const Point d = point_at(s, f.u + a * e, f.v + b * e) - p;
+        return dot(d, d);
+      };
+      const double here = d2(0, 0), uu = d2(1, 0) + d2(-1, 0) - 2 * here,
+                   vv = d2(0, 1) + d2(0, -1) - 2 * here,
+                   uv = (d2(1, 1) + d2(-1, -1) - d2(1, -1) - d2(-1, 1)) / 4;
+      CHECK_LE(std::fabs(d2(1, 0) - d2(-1, 0)), 1e-10);
+      CHECK_LE(std::fabs(d2(0, 1) - d2(0, -1)), 1e-10);
+      if (std::fabs(uu * vv - uv * uv) < 1e-19) continue;
+      const FootKind kind = uu * vv < uv * uv ? FootKind::kSaddle
+                            : uu > 0          ? FootKind::kMin
+                                              : FootKind::kMax;
+      CHECK(kind == f.kind);
     }
-  }
+  });
 }
 
 // Index of the distance on a closed surface: minima - saddles + maxima is its Euler number.

@@ -22,4 +22,14 @@ core::Verdict verdict_of(const Parts&... parts) {
 /// Rule * 1000 + element: 106'004 is element 4 of R106; 0 where it passed.
 inline uint32_t refusal(core::Verdict verdict) { return verdict.rule * 1000u + verdict.element; }
 
+/// A sound `model` is accepted, and rejected by `rule` at `element` after `break_it`.
+template <class Model, class Break>
+void check_rule(Model& model, uint16_t rule, uint32_t element, const Break& break_it) {
+  CHECK_EQ(model.verdict().rule, 0u);
+  break_it(model);
+  const core::Verdict verdict = model.verdict();
+  CHECK_EQ(verdict.rule, rule);
+  CHECK_EQ(verdict.element, element);
+}
+
 }  // namespace firmtouch::test

@@ -32,6 +32,19 @@ struct Memory {
   hull::RefinementMemory spans() { return {{bits}, {splits}, {candidates}}; }
 };
 
+// The small hull, and a refinement that has so much memory.
+template <uint32_t kSplits, uint32_t kCandidates>
+struct Refined : Opened {
+  Memory<kSplits, kCandidates> memory;
+  hull::Refinement refinement{view, view.base_hull(), memory.spans()};
+
+  uint32_t face_count() const {
+    uint32_t count = 0;
+    for (RefinementFaces faces(view, view.base_hull(), refinement); faces.next();) ++count;
+    return count;
+  }
+};
+
 uint32_t g_random = 1;
 float random_in(float low, float high) {
   g_random = g_random * 1664525u + 1013904223u;
@@ -63,9 +76,8 @@ uint64_t mark(const uint32_t (&corner)[3]) {
 }  // namespace
 
 TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
-  const Opened opened;
-  Memory<kMax, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<kMax, 4> opened;
+  hull::Refinement& refinement = opened.refinement;
   for (uint32_t k = 0; k < opened.view.collapse_count(); ++k) CHECK(refinement.split(k));
   CHECK_EQ(refinement.splits().size(), opened.view.collapse_count());
   uint64_t wanted = 0, found = 0;
@@ -78,30 +90,23 @@ TEST(SplittingEverythingRestoresTheMeshFaceForFace) {
   CHECK_EQ(count, opened.view.head().mesh_triangle_count);
   CHECK_EQ(found, wanted);
   refinement.reset();
-  count = 0;
-  for (RefinementFaces faces(opened.view, opened.view.base_hull(), refinement); faces.next();)
-    ++count;
-  CHECK_EQ(count, opened.view.base_hull().face_count());
+  CHECK_EQ(opened.face_count(), opened.view.base_hull().face_count());
 }
 
 TEST(AnyClosureLeavesAHullOfTheRightSize) {
-  const Opened opened;
-  Memory<kMax, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<kMax, 4> opened;
+  hull::Refinement& refinement = opened.refinement;
   for (uint32_t k = 0; k < opened.view.collapse_count(); k += 3) {
     refinement.reset();
     CHECK(refinement.split(k));
-    uint32_t count = 0;
-    for (RefinementFaces faces(opened.view, opened.view.base_hull(), refinement); faces.next();)
-      ++count;
-    CHECK_EQ(count, opened.view.base_hull().face_count() + 2 * refinement.splits().size());
+    CHECK_EQ(opened.face_count(),
+             opened.view.base_hull().face_count() + 2 * refinement.splits().size());
   }
 }
 
 TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
-  const Opened opened;
-  Memory<kMax, 64> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<kMax, 64> opened;
+  hull::Refinement& refinement = opened.refinement;
   g_random = 7;
   uint32_t hits = 0, splits = 0;
   for (uint32_t i = 0; i < 400; ++i) {
@@ -126,9 +131,8 @@ TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
 }
 
 TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
-  const Opened opened;
-  Memory<kMax, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<kMax, 4> opened;
+  hull::Refinement& refinement = opened.refinement;
   g_random = 9;
   for (uint32_t i = 0; i < 400; ++i) {
     test::note("segment", i);
@@ -153,9 +157,8 @@ TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
 
 // Half a closure is no hull: one that does not fit is taken back, and the hull's crossing reported.
 TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
-  const Opened opened;
-  Memory<12, 3> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<12, 3> opened;
+  hull::Refinement& refinement = opened.refinement;
   g_random = 11;
   uint32_t conservative = 0, exact = 0;
   for (uint32_t i = 0; i < 600; ++i) {
@@ -180,9 +183,8 @@ TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
 }
 
 TEST(ClosureThatDoesNotFit_IsReverted) {
-  const Opened opened;
-  Memory<12, 4> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<12, 4> opened;
+  hull::Refinement& refinement = opened.refinement;
   uint32_t refused = 0;
   for (uint32_t turn = 0; turn < 2; ++turn) {
     for (uint32_t k = opened.view.collapse_count(); k-- > 0;) {
@@ -190,10 +192,8 @@ TEST(ClosureThatDoesNotFit_IsReverted) {
       const bool fits = refinement.split(k);
       refused += fits ? 0u : 1u;
       if (!fits) CHECK_EQ(refinement.splits().size(), before);
-      uint32_t count = 0;
-      for (RefinementFaces faces(opened.view, opened.view.base_hull(), refinement); faces.next();)
-        ++count;
-      CHECK_EQ(count, opened.view.base_hull().face_count() + 2 * refinement.splits().size());
+      CHECK_EQ(opened.face_count(),
+               opened.view.base_hull().face_count() + 2 * refinement.splits().size());
       if (turn == 1) refinement.reset();
     }
     refinement.reset();
@@ -202,9 +202,8 @@ TEST(ClosureThatDoesNotFit_IsReverted) {
 }
 
 TEST(HostileSegments_GiveFiniteResults) {
-  const Opened opened;
-  Memory<kMax, 8> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<kMax, 8> opened;
+  hull::Refinement& refinement = opened.refinement;
   const uint32_t bits[] = {0x00000000, 0x80000001, 0x3F800000, 0xBF800000, 0x4E000000,
                            0x7149F2CA, 0xFF7FFFFF, 0x7F800000, 0x7FC00000, 0xFFFFFFFF};
   for (uint32_t i = 0; i < 1000; ++i) {
@@ -228,9 +227,8 @@ TEST(HostileSegments_GiveFiniteResults) {
 
 // The same number on every compiler, level and controller.
 TEST(HullAnswersHaveOneHashEverywhere) {
-  const Opened opened;
-  Memory<40, 6> memory;
-  hull::Refinement refinement(opened.view, opened.view.base_hull(), memory.spans());
+  Refined<40, 6> opened;
+  hull::Refinement& refinement = opened.refinement;
   core::Hash hash;
   g_random = 5;
   for (uint32_t i = 0; i < 1000; ++i) {

@@ -7,6 +7,7 @@
 #include "brute_force.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "harness/test.hpp"
+#include "mesh/sliver_plate.hpp"
 #include "surface/check/check.hpp"
 #include "surface/make/make_cad.hpp"
 #include "true_distance.hpp"
@@ -155,25 +156,7 @@ TEST(Materials_FaceWithoutAreaAtABorder_TakesTheMaterialOfItsPlace) {
 TEST(Materials_TurnedSlivers_KeepTheirPlaces) {
   uint32_t flips = 0;
   for (const double lift_m : {1e-9, 3e-9, 1e-8}) {
-    tools::Surface plate;
-    const Point outline[5] = {{0.06, -0.019, 0},
-                              {0.06 + lift_m, 0.0185, 0},
-                              {0.06, 0.019, 0},
-                              {0, 0.04, 0},
-                              {0, -0.04, 0}};
-    for (const double z_m : {0.0, 0.006})
-      for (const Point& p : outline)
-        plate.vertices.push_back(
-            tools::to_vec3({0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, z_m}));
-    for (const tools::Face& f : {tools::Face{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}) {
-      plate.faces.push_back({f[2], f[1], f[0]});
-      plate.faces.push_back({f[0] + 5, f[1] + 5, f[2] + 5});
-    }
-    for (uint32_t k = 0; k < 5; ++k) {
-      const uint32_t next = (k + 1) % 5;
-      plate.faces.push_back({k, next, next + 5});
-      plate.faces.push_back({k, next + 5, k + 5});
-    }
+    tools::Surface plate = sliver_plate({{0.8, -0.6, 0}, {0.6, 0.8, 0}, {0, 0, 1}}, lift_m);
     paint(plate, false, 5);
     const Baked baked(plate);
     flips += baked.report.signs.turned.flips;

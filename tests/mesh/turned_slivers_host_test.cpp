@@ -6,17 +6,13 @@
 #include "brute_force.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
+#include "mesh/sliver_plate.hpp"
 #include "surface/make/make_cad.hpp"
 
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
-
-struct Rotation {
-  Point x, y, z;  // rows
-  Point of(Point p) const { return {dot(x, p), dot(y, p), dot(z, p)}; }
-};
 
 // Source: Shoemake 1992, "Uniform random rotations", without trigonometric functions.
 Rotation random_rotation(Random& random) {
@@ -33,27 +29,6 @@ Rotation random_rotation(Random& random) {
 
 tools::Surface turned(tools::Surface surface, const Rotation& rotation) {
   for (math::Vec3& v : surface.vertices) v = tools::to_vec3(rotation.of(wide(v)));
-  return surface;
-}
-
-// A plate whose outline has a corner `lift_m` off the line between its neighbours; both flat faces
-// are cut so that this corner gets a triangle of its own.
-tools::Surface plate(const Rotation& rotation, double lift_m) {
-  const Point outline[5] = {
-      {0.06, -0.019, 0}, {0.06 + lift_m, 0.0185, 0}, {0.06, 0.019, 0}, {0, 0.04, 0}, {0, -0.04, 0}};
-  tools::Surface surface;
-  for (const double z_m : {0.0, 0.006})
-    for (const Point& p : outline)
-      surface.vertices.push_back(tools::to_vec3(rotation.of({p.x, p.y, z_m})));
-  for (const tools::Face& f : {tools::Face{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}) {
-    surface.faces.push_back({f[2], f[1], f[0]});
-    surface.faces.push_back({f[0] + 5, f[1] + 5, f[2] + 5});
-  }
-  for (uint32_t k = 0; k < 5; ++k) {
-    const uint32_t next = (k + 1) % 5;
-    surface.faces.push_back({k, next, next + 5});
-    surface.faces.push_back({k, next + 5, k + 5});
-  }
   return surface;
 }
 
@@ -90,7 +65,8 @@ TEST(PlateWithSlivers_Turned_IsSignedLikeBruteForce) {
     test::note("case", i);
     const Rotation rotation = random_rotation(random);
     const double lift_m = std::pow(10.0, random.between(-8, -6));
-    flips += is_signed_like_brute_force(plate(rotation, lift_m), 60, static_cast<uint64_t>(i));
+    flips +=
+        is_signed_like_brute_force(sliver_plate(rotation, lift_m), 60, static_cast<uint64_t>(i));
   }
   CHECK_GT(flips, 10u);
 }

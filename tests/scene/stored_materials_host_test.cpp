@@ -6,7 +6,7 @@
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/relief.hpp"
-#include "harness/test.hpp"
+#include "harness/rules.hpp"
 #include "scene/proxy_rig.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
@@ -74,10 +74,7 @@ template <class Break>
 void check_rule(uint16_t rule, uint32_t element, const Break& break_it, bool has_reliefs = false) {
   Stored stored;
   if (has_reliefs) stored.add_reliefs();
-  CHECK_EQ(stored.verdict().rule, 0u);
-  break_it(stored);
-  CHECK_EQ(stored.verdict().rule, rule);
-  CHECK_EQ(stored.verdict().element, element);
+  test::check_rule(stored, rule, element, break_it);
 }
 
 }  // namespace

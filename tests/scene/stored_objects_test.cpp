@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 #include "harness/float_bits.hpp"
-#include "harness/test.hpp"
+#include "harness/rules.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 using scene::ObjectLayout;
@@ -47,10 +47,7 @@ struct Scene {
 template <class Break>
 void check_rule(uint16_t rule, uint32_t element, const Break& break_it) {
   Scene scene;
-  CHECK_EQ(scene.verdict().rule, 0u);
-  break_it(scene);
-  CHECK_EQ(scene.verdict().rule, rule);
-  CHECK_EQ(scene.verdict().element, element);
+  test::check_rule(scene, rule, element, break_it);
 }
 
 }  // namespace

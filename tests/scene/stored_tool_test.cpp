@@ -4,7 +4,7 @@
 #include <stdint.h>
 
 #include "harness/float_bits.hpp"
-#include "harness/test.hpp"
+#include "harness/rules.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 
@@ -34,10 +34,7 @@ struct Tool {
 template <class Break>
 void check_rule(uint16_t rule, uint32_t element, const Break& break_it) {
   Tool tool;
-  CHECK_EQ(tool.verdict().rule, 0u);
-  break_it(tool);
-  CHECK_EQ(tool.verdict().rule, rule);
-  CHECK_EQ(tool.verdict().element, element);
+  test::check_rule(tool, rule, element, break_it);
 }
 
 }  // namespace

@@ -116,21 +116,23 @@ TEST(AnUntrimmedTrimmedSurfaceIsItsSurface) {
 }
 
 TEST(PiecesWithoutLength_AreReported) {
-  const SplineModel model = read_entities(
-      {{126,
-        "126,4,1,1,0,1,0,0.,0.,1.,2.,3.,4.,4.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,1.,0.,0.,2.,0.,"
-        "0.,3.,0.,0.,0.,4.;"}});
-  CHECK(model.problem.empty());
-  CHECK_EQ(model.notes.size(), 1u);
-  CHECK(has(model.notes[0], "entity 126 in line 3: left out 1 piece"));
+  const auto note_on = [](int type, const char* text) {
+    const SplineModel model = read_entities({{type, text}});
+    CHECK(model.problem.empty());
+    CHECK_EQ(model.notes.size(), 1u);
+    return model.notes.at(0);
+  };
+  const std::string curve = note_on(
+      126,
+      "126,4,1,1,0,1,0,0.,0.,1.,2.,3.,4.,4.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,1.,0.,0.,2.,0.,"
+      "0.,3.,0.,0.,0.,4.;");
+  CHECK(has(curve, "entity 126 in line 3: left out 1 piece"));
   // Of four patches the one whose four corners are one point.
-  const SplineModel sheet = read_entities(
-      {{128,
-        "128,2,2,1,1,0,0,1,0,0,0.,0.,1.,2.,2.,0.,0.,1.,2.,2.,1.,1.,1.,1.,1.,1.,1.,1.,1.,0.,0.,0.,"
-        "0.,0.,0.,1.,0.,0.,0.,0.,0.,0.,0.,0.,1.,1.,0.,0.,1.,0.,0.5,1.,0.,1.,2.,0.,0.,2.,0.,2.;"}});
-  CHECK(sheet.problem.empty());
-  CHECK_EQ(sheet.notes.size(), 1u);
-  CHECK(has(sheet.notes[0], "entity 128 in line 3: left out 1 piece that has no extent"));
+  const std::string sheet = note_on(
+      128,
+      "128,2,2,1,1,0,0,1,0,0,0.,0.,1.,2.,2.,0.,0.,1.,2.,2.,1.,1.,1.,1.,1.,1.,1.,1.,1.,0.,0.,0.,"
+      "0.,0.,0.,1.,0.,0.,0.,0.,0.,0.,0.,0.,1.,1.,0.,0.,1.,0.,0.5,1.,0.,1.,2.,0.,0.,2.,0.,2.;");
+  CHECK(has(sheet, "entity 128 in line 3: left out 1 piece that has no extent"));
 }
 
 TEST(ACircleOfACadKernelIsRound) {
