@@ -55,10 +55,7 @@ struct World {
     contact.passed_s = kTick_s;
     scene::begin_model(model, hand_m, now, /*age_ticks*/ 2);
     scene::touch_by_tool(contact, scene::StoredTool(kBar), turn.rotation, table, touch, model);
-    servo::StepInput input;
-    input.position_m = hand_m;
-    input.tick = now++;
-    input.enable = true;
+    const servo::StepInput input{hand_m, /*velocity_mps*/ {}, now++, /*enable*/ true};
     output = servo::step(state, kSettings, model, input);
     show(hand_m, output.force_N);
   }

@@ -30,10 +30,7 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m) {
   scene::EffectSum sum(kSettings.force_limit_N, /*contact_N*/ {});
   sum.add(scene::detents_at(kRing, position_m), detents);
   sum.put(position_m, model);
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.tick = number;
-  input.enable = true;
+  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
   const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
   show(position_m, force_N);
   return force_N;

@@ -57,10 +57,7 @@ void tick(uint32_t number, math::Vec3 position_m) {
   contact.passed_s = kSettings.tick_period_s;
   scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
   scene::touch_by_proxy(contact, nerve, touch, model);
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.tick = number;
-  input.enable = true;
+  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
   output = servo::step(state, kSettings, model, input);
   show(position_m, output.force_N);
   const math::Vec3 at_m = output.proxy_m;

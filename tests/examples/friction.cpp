@@ -36,10 +36,7 @@ math::Vec3 tick(uint32_t number, float x_m, float height_m) {
   contact.passed_s = kSettings.tick_period_s;
   scene::begin_model(model, contact.position_m, number, /*age_ticks*/ 2);
   scene::touch_by_proxy(contact, table, touch, model);
-  servo::StepInput input;
-  input.position_m = contact.position_m;
-  input.tick = number;
-  input.enable = true;
+  const servo::StepInput input{contact.position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
   output = servo::step(state, kSettings, model, input);
   show(input.position_m, output.force_N);
   return output.force_N;

@@ -34,11 +34,7 @@ math::Vec3 tick(math::Vec3 position_m, math::Vec3 velocity_mps) {
   sum.add(scene::detents_at(kNotches, position_m), notches);
   sum.add(scene::speed_wall_N(kOil, velocity_mps));
   sum.put(position_m, model);
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.velocity_mps = velocity_mps;
-  input.tick = now++;
-  input.enable = true;
+  const servo::StepInput input{position_m, velocity_mps, now++, /*enable*/ true};
   const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
   show(position_m, force_N);
   return force_N;

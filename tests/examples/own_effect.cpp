@@ -36,11 +36,7 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m, math::Vec3 velocity_mps)
   servo::LocalModel model;
   scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
   add_honey(position_m, velocity_mps, model);
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.velocity_mps = velocity_mps;
-  input.tick = number;
-  input.enable = true;
+  const servo::StepInput input{position_m, velocity_mps, number, /*enable*/ true};
   const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
   show(position_m, force_N);
   return force_N;

@@ -60,10 +60,7 @@ math::Vec3 tick(uint32_t number, const int32_t (&counts)[2], float (&torque_Nm)[
   wall.offset_m = -kWall_m;
   wall.stiffness_N_per_m = kStiffness_N_per_m;
   scene::add_plane(model, wall);
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.tick = number;
-  input.enable = true;
+  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
   const math::Vec3 force_N = servo::step(state, kSettings, model, input).force_N;
   show(position_m, force_N);
   arm.torques(force_N, torque_Nm);

@@ -67,10 +67,7 @@ math::Vec3 tick(uint32_t number, math::Vec3 position_m) {
   contact.passed_s = kSettings.tick_period_s;
   scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
   scene::touch_by_proxy(contact, torus, touch, model);
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.tick = number;
-  input.enable = true;
+  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
   output = servo::step(state, kSettings, model, input);
   show(position_m, output.force_N);
   return output.force_N;

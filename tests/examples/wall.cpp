@@ -29,10 +29,7 @@ servo::StepOutput tick(uint32_t number, float height_m, bool enable) {
   wall.stiffness_N_per_m = kStiffness_N_per_m;
   scene::add_plane(model, wall);
 
-  servo::StepInput input;
-  input.position_m = position_m;
-  input.tick = number;
-  input.enable = enable;
+  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, enable};
   const servo::StepOutput output = servo::step(state, kSettings, model, input);
   show(position_m, output.force_N);
   return output;
