@@ -12,6 +12,7 @@
 #include "harness/test.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
+#include "surface/shapes.hpp"
 
 namespace {
 
@@ -244,27 +245,8 @@ TEST(ASliverIsRefusedOrItsSideIsRight) {
 
 // Two cubes through each other: sides differ at the vertices of the one inside the other.
 TEST(CrossingSolids_DifferingFeatures_AreListedByPosition) {
-  tools::Surface cubes;
-  for (const float shift : {0.0f, 1.25f}) {
-    const uint32_t first = static_cast<uint32_t>(cubes.vertices.size());
-    for (uint32_t v = 0; v < 8; ++v)
-      cubes.vertices.push_back({(v & 1 ? 1.0f : -1.0f) + shift,
-                                (v & 2 ? 1.0f : -1.0f) + shift * 0.9f,
-                                (v & 4 ? 1.0f : -1.0f) + shift * 0.8f});
-    for (const tools::Face f : {tools::Face{0, 2, 1},
-                                {1, 2, 3},
-                                {4, 5, 6},
-                                {5, 7, 6},
-                                {0, 1, 4},
-                                {1, 5, 4},
-                                {2, 6, 3},
-                                {3, 6, 7},
-                                {0, 4, 2},
-                                {2, 4, 6},
-                                {1, 3, 5},
-                                {3, 7, 5}})
-      cubes.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
-  }
+  tools::Surface cubes = tools::cube();
+  append(cubes, tools::cube({1.25f, 1.125f, 1}));
   tools::MeshReport report;
   (void)tools::bake_mesh(cubes, "cubes", {}, report);
   CHECK(report.problem.empty());

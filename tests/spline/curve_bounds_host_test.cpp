@@ -87,9 +87,8 @@ using firmtouch::test::is_long;
 TEST(CurveBounds_HoldByIntervals_OfRandomCurves) {
   for (uint32_t seed = 0; seed < (is_long() ? 60u : 5u); ++seed) {
     tools::Random random(seed + 300);
-    tools::SplineModel model;
-    model.curves.push_back(
-        random_curve(random, 1 + static_cast<int>(seed % 5), 1 + static_cast<int>(seed % 3)));
-    check_curve(BakedModel(model, seed % 2 == 1).view);
+    const tools::SplineCurve curve =
+        random_curve(random, 1 + static_cast<int>(seed % 5), 1 + static_cast<int>(seed % 3));
+    check_curve(BakedModel(of(curve), seed % 2 == 1).view);
   }
 }

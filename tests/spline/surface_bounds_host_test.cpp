@@ -264,9 +264,8 @@ using firmtouch::test::is_long;
 TEST(EveryBoundBakedOfRandomSurfacesHoldsByIntervals) {
   for (uint32_t seed = 0; seed < (is_long() ? 12u : 1u); ++seed) {
     tools::Random random(seed + 400);
-    tools::SplineModel model;
-    model.surfaces.push_back(random_surface(random, 3, 3 - static_cast<int>(seed % 2), 1));
-    const Radii radii = check(model, seed % 2 == 0);
+    const Radii radii =
+        check(of(random_surface(random, 3, 3 - static_cast<int>(seed % 2), 1)), seed % 2 == 0);
     if (seed == 0) check_tight(radii);
   }
 }

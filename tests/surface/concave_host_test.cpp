@@ -49,18 +49,12 @@ std::string prism_off(const Drawing& outline, double height, double turn, size_t
 }  // namespace
 
 TEST(ConcaveFaces_AreSplitInTheirPlane) {
+  // L, U, an arrow, a corner on a side.
   const Drawing drawings[] = {
-      {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 5, 0}, {0, 5, 0}},  // L
-      {{0, 0, 0},
-       {5, 0, 0},
-       {5, 4, 0},
-       {4, 4, 0},
-       {4, 1, 0},
-       {1, 1, 0},
-       {1, 4, 0},
-       {0, 4, 0}},                                                           // U
-      {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.7, 1, 0}},                        // arrow
-      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 0.4, 0}, {0, 1, 0}},  // a corner on a side
+      {{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {1, 1, 0}, {1, 5, 0}, {0, 5, 0}},
+      {{0, 0, 0}, {5, 0, 0}, {5, 4, 0}, {4, 4, 0}, {4, 1, 0}, {1, 1, 0}, {1, 4, 0}, {0, 4, 0}},
+      {{0, 0, 0}, {2, 1, 0}, {0, 2, 0}, {0.7, 1, 0}},
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 0.4, 0}, {0, 1, 0}},
   };
   uint32_t tried = 0;
   for (const Drawing& drawing : drawings) {
