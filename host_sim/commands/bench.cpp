@@ -42,16 +42,12 @@ int print_report(const bench::Report& report, const std::string& name, bool is_j
 }
 
 cli::Command bench_command() {
-  return {"bench",
-          "[NAME] [options]",
+  return {{"bench", "[NAME] [options]", 0, 1, run_bench},
           "measures the contact of a controller on the simulated device against closed forms",
           "Without NAME: the benches there are. Exit code 1 where a bar is not met.",
           {{"--long", nullptr, "the full sizes"},
            {"--moving", nullptr, "feel: a wall that rises through a held tool, and two that close"},
-           {"--json", nullptr, "for programs"}},
-          0,
-          1,
-          run_bench};
+           {"--json", nullptr, "for programs"}}};
 }
 
 }  // namespace firmtouch::host_sim

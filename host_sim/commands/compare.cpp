@@ -80,16 +80,11 @@ int print_comparison(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command compare_command() {
-  return {
-      "compare",
-      "A.ftl B.ftl",
-      "compares two runs: the figures of both, settings and fields that differ, and where",
-      "Ticks are matched by their number, up to the end of the shorter run. Exit code 0: all bits "
-      "of all ticks are\nthe same; 1: they differ.",
-      {{"--json", nullptr, "the comparison as JSON"}},
-      2,
-      2,
-      print_comparison};
+  return {{"compare", "A.ftl B.ftl", 2, 2, print_comparison},
+          "compares two runs: the figures of both, settings and fields that differ, and where",
+          R"(Ticks are matched by their number, up to the end of the shorter run. Exit code 0: all
+bits of all ticks are the same; 1: they differ.)",
+          {{"--json", nullptr, "the comparison as JSON"}}};
 }
 
 }  // namespace firmtouch::host_sim

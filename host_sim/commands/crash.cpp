@@ -133,18 +133,14 @@ int read_crash(const cli::Arguments& options) {
 
 cli::Command crash_command() {
   return {
-      "crash",
-      "CONTROLLER [options]",
+      {"crash", "CONTROLLER [options]", 1, 1, read_crash},
       "prints what ended a controller's last run: cause, place, last ticks, and how to go on",
-      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud). Its program needs part\n"
-      "`crash_record` (hal/PORTING.md); firmtouch_app_hardware of a Cortex-M has it.\n"
-      "Exit codes: 0 a record was printed; 1 the last run left none.",
+      R"(CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud). Its program needs part
+`crash_record` (hal/PORTING.md); firmtouch_app_hardware of a Cortex-M has it.
+Exit codes: 0 a record was printed; 1 the last run left none.)",
       {{"--image", "FILE.elf", "the program that ran then, for the command that finds the place"},
        wait_option(),
-       {"--json", nullptr, "numbers instead of text"}},
-      1,
-      1,
-      read_crash};
+       {"--json", nullptr, "numbers instead of text"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -158,17 +158,13 @@ cli::Command device_command() {
       tools::device_file_help() + machines() +
       "Exit code 1: a pose of the ranges is not reachable, singular, beyond the fade, or without "
       "inertia; or a figure misses its goal.\n";
-  return {"device",
-          "FILE|MACHINE [options]",
+  return {{"device", "FILE|MACHINE [options]", 1, 1, print_device},
           "checks a linkage's file, prints its workspace, and compares the firmware with its "
           "simulation",
           details,
           {{"--poses", "N", "of the check against the simulation (default 1000000)"},
            {"--print", nullptr, "the device file of a machine, to bake or to change"},
-           {"--json", nullptr, "the workspace and the check as JSON"}},
-          1,
-          1,
-          print_device};
+           {"--json", nullptr, "the workspace and the check as JSON"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -84,21 +84,16 @@ int export_log(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command export_command() {
-  return {
-      "export",
-      "LOG FOLDER [options]",
-      "writes the scene and what moved in it over time as VTK files, for ParaView",
-      "ParaView opens FOLDER/run.pvd. Its files are text: scene_N.vtp has surface and guide, anew "
-      "where objects\nhave moved; tick_N.vtp has the tip, the proxy and a line between them, and "
-      "a linkage's links. At the tip are\nforce_N and velocity_mps; part is 0 for the tip, 1 for "
-      "the proxy, 2 for links; the fields are penetration_m,\ntool_radius_m, is_on and faults. "
-      "The folder is made, whole or not at all. Exit code 1: the log is damaged, and\nwhat is "
-      "before that is exported.",
-      {{"--every", "N", "every Nth tick of the log (default: 60 in a second)"},
-       {"--asset", "FILE", "the asset, if it is not at the path in the log"}},
-      2,
-      2,
-      export_log};
+  return {{"export", "LOG FOLDER [options]", 2, 2, export_log},
+          "writes the scene and what moved in it over time as VTK files, for ParaView",
+          R"(ParaView opens FOLDER/run.pvd. Its files are text: scene_N.vtp has surface and guide,
+anew where objects have moved; tick_N.vtp has the tip, the proxy and a line between
+them, and a linkage's links. At the tip are force_N and velocity_mps; part is 0 for the
+tip, 1 for the proxy, 2 for links; the fields are penetration_m, tool_radius_m, is_on
+and faults. The folder is made, whole or not at all. Exit code 1: the log is damaged,
+and what is before that is exported.)",
+          {{"--every", "N", "every Nth tick of the log (default: 60 in a second)"},
+           {"--asset", "FILE", "the asset, if it is not at the path in the log"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -60,15 +60,11 @@ int print_hands(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command hands_command() {
-  return {"hands",
-          "[options]",
+  return {{"hands", "[options]", 0, 0, print_hands},
           "lists hands with a mass for scenarios, `hand NAME weak|mean|firm`, and their impedance",
           "A grip, spring and damper, between device and mass; another pair from the mass to the "
           "target.",
-          {{"--json", nullptr, "for programs"}},
-          0,
-          0,
-          print_hands};
+          {{"--json", nullptr, "for programs"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -61,19 +61,15 @@ int print_homing(const cli::Arguments& options) {
 
 cli::Command home_command() {
   return {
-      "home",
-      "FILE|MACHINE [options]",
+      {"home", "FILE|MACHINE [options]", 1, 1, print_homing},
       "homes a simulated linkage with the firmware, again and again, also where something is wrong",
-      "Each run has its own start, stops of 50 to 5,000 N/m, index phase and raw counts, half of "
-      "them about the wrap.\nThe torque is 1.6 times what holds the joint's weight, and at least a "
-      "fifth of its\nlargest; the column shows what was applied, over that.\nwrong: more than a "
-      "count off, no end in 2 s, or above the homing "
-      "torque. Exit code 1 if there is one.",
+      R"(Each run has its own start, stops of 50 to 5,000 N/m, index phase and raw counts, half
+of them about the wrap. The torque is 1.6 times what holds the joint's weight, and at
+least a fifth of its largest; the column shows what was applied, over that.
+wrong: more than a count off, no end in 2 s, or above the homing torque. Exit code 1 if
+there is one.)",
       {{"--runs", "N", "of all cases together (default 10000)"},
-       {"--json", nullptr, "the table as JSON"}},
-      1,
-      1,
-      print_homing};
+       {"--json", nullptr, "the table as JSON"}}};
 }
 
 }  // namespace firmtouch::host_sim

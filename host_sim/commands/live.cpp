@@ -95,19 +95,15 @@ int serve_live(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command live_command() {
-  return {"live",
-          "CONTROLLER [options]",
+  return {{"live", "CONTROLLER [options]", 0, 1, serve_live},
           "serves a page that shows and tunes a running controller in a browser, until Ctrl-C",
-          "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
-          "The page is served to this machine only. One page holds the link; others wait.",
+          R"(CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).
+The page is served to this machine only. One page holds the link; others wait.)",
           {{"--asset", "FILE", "the controller's asset: the page shows its part, and its linkage"},
            {"--port", "N", "of http://127.0.0.1:N/ (default: 5678)"},
            wait_option(),
            {"--page", "FILE.html",
-            "write the page instead, for use over WebSerial without this program"}},
-          0,
-          1,
-          serve_live};
+            "write the page instead, for use over WebSerial without this program"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -84,18 +84,14 @@ int load_asset(const cli::Arguments& options) {
 
 cli::Command load_command() {
   return {
-      "load",
-      "ASSET.fta CONTROLLER [options]",
+      {"load", "ASSET.fta CONTROLLER [options]", 2, 2, load_asset},
       "loads an asset into a running controller, which proves it, keeps it and swaps to it",
-      "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud). Its program needs part\n"
-      "`asset_slots` (hal/PORTING.md). The motors must be off, and stay off until the asset is in\n"
-      "use; then open the enable switch once. A power cut leaves the old asset or the new one.\n"
-      "Exit codes: 0 loaded; 1 the controller refused it, and keeps the old one.",
+      R"(CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud). Its program needs part
+`asset_slots` (hal/PORTING.md). The motors must be off, and stay off until the asset is in
+use; then open the enable switch once. A power cut leaves the old asset or the new one.
+Exit codes: 0 loaded; 1 the controller refused it, and keeps the old one.)",
       {{"--unchecked", nullptr, "send the file as it is: the controller alone proves it"},
-       wait_option()},
-      2,
-      2,
-      load_asset};
+       wait_option()}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -252,11 +252,10 @@ int record_live(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command record_command() {
-  return {"record",
-          "CONTROLLER -o FILE.ftl [options]",
+  return {{"record", "CONTROLLER -o FILE.ftl [options]", 1, 1, record_live},
           "records a running controller over its link until Ctrl-C, or for a given time",
-          "CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).\n"
-          "Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.",
+          R"(CONTROLLER: unix:PATH, tcp:HOST:PORT or a serial DEVICE (1 Mbaud).
+Exit codes: 0 done; 1 recorded, but records are missing or a parameter was rejected.)",
           {{"-o", "FILE.ftl", "the log"},
            {"--seconds", "S", "duration"},
            {"--decimate", "N", "every N-th tick only (1 Mbaud carries about 690 records a second)"},
@@ -265,10 +264,7 @@ cli::Command record_command() {
            {"--file-megabytes", "N", "start a new file after N megabytes"},
            {"--keep", "N", "keep the newest N files"},
            wait_option(),
-           {"--json", nullptr, "the summary as JSON on stdout"}},
-          1,
-          1,
-          record_live};
+           {"--json", nullptr, "the summary as JSON on stdout"}}};
 }
 
 }  // namespace firmtouch::host_sim

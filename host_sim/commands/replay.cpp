@@ -92,23 +92,18 @@ int replay_log(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command replay_command() {
-  return {
-      "replay",
-      "LOG [options]",
-      "recomputes a log from its inputs and compares every bit of every output",
-      "Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are printed), "
-      "or the\nlog is incomplete and all outputs before the gap are equal.",
-      {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
-       {"--next-asset", "FILE", "the asset that a tick of the log swaps to"},
-       {"--controller", "WHAT",
-        "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
-       {"--image", "FILE",
-        "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
-       wait_option(),
-       {"--json", nullptr, "the answer as JSON on stdout"}},
-      1,
-      1,
-      replay_log};
+  return {{"replay", "LOG [options]", 1, 1, replay_log},
+          "recomputes a log from its inputs and compares every bit of every output",
+          R"(Exit codes: 0 all outputs are equal; 1 an output differs (its tick and field are
+printed), or the log is incomplete and all outputs before the gap are equal.)",
+          {{"--asset", "FILE", "the asset, if it is not at the path in the log"},
+           {"--next-asset", "FILE", "the asset that a tick of the log swaps to"},
+           {"--controller", "WHAT",
+            "inproc (default), qemu:BOARD, unix:PATH, tcp:HOST:PORT or a serial DEVICE"},
+           {"--image", "FILE",
+            "the program for qemu:BOARD (default: build/BOARD/bin/firmtouch_app.elf)"},
+           wait_option(),
+           {"--json", nullptr, "the answer as JSON on stdout"}}};
 }
 
 }  // namespace firmtouch::host_sim

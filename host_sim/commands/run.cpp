@@ -225,12 +225,10 @@ int run_scenario(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command run_command() {
-  const std::string details = scenario_help() + parameter_help();
   return {
-      "run",
-      "SCENARIO [options]",
+      {"run", "SCENARIO [options]", 1, 1, run_scenario},
       "simulates a scenario: a hand moves a device, and the controller renders the force",
-      details,
+      scenario_help() + parameter_help(),
       {{"--set", "KEY=VALUE",
         "overrides a line of the scenario, with unit: \"mass=60 g\"; may be repeated", true},
        {"--controller", "WHAT",
@@ -248,10 +246,7 @@ cli::Command run_command() {
        {"--energy", nullptr,
         "of a linkage: work of hand and motors, stored and lost energy; exit code 1 where they\n"
         "                              do not balance to 1e-5"},
-       {"--json", nullptr, "the figures as JSON on stdout"}},
-      1,
-      1,
-      run_scenario};
+       {"--json", nullptr, "the figures as JSON on stdout"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -83,16 +83,12 @@ int make_scenario(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command scenario_command() {
-  return {"scenario",
-          "ASSET -o FILE [options]",
+  return {{"scenario", "ASSET -o FILE [options]", 1, 1, make_scenario},
           "writes a scenario for an asset: press on the surface, follow the guide, emergency stop",
           "The scenario is scaled by the asset's bounding box. - as FILE is stdout.",
           {{"-o", "FILE", "the scenario"},
            {"--device", "FILE", "the linkage's file, if it is none of `device --help`'s machines"},
-           {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}},
-          1,
-          1,
-          make_scenario};
+           {"--outline", "FILE.csv", "a closed line around the mesh, to be baked as its guide"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -148,26 +148,18 @@ int score_run(const cli::Arguments& options) {
 
 cli::Command score_command() {
   return {
-      "score",
-      "RUN.ftl|RUN.csv [options]",
+      {"score", "RUN.ftl|RUN.csv [options]", 1, 1, score_run},
       "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
-      "Energy given, while no guide holds the tool: the largest gain of the motors' work plus what "
-      "the\n"
-      "contact's spring holds. Contact on a guide is the proxy's spring alone. From a log it is "
-      "that of the encoders' positions, from a CSV of "
-      "the\n"
-      "device's. A log has its settings; for a CSV they are the parameters' initial values, or "
-      "those\n"
-      "given here.",
+      R"(Energy given, while no guide holds the tool: the largest gain of the motors' work plus
+what the contact's spring holds. Contact on a guide is the proxy's spring alone. From a
+log it is that of the encoders' positions, from a CSV of the device's. A log has its
+settings; for a CSV they are the parameters' initial values, or those given here.)",
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
        {"--asset", "FILE.fta", "of the run: turns of contact that its textures state do not count"},
        {"--force-limit", "N", "force_limit of the run"},
        {"--tool-radius", "M", "tool_radius of the run"},
        {"--stiffness", "N_PER_M", "contact_stiffness of the run"},
-       {"--json", nullptr, "the figures as JSON"}},
-      1,
-      1,
-      score_run};
+       {"--json", nullptr, "the figures as JSON"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -28,29 +28,22 @@ int run_study(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command study_command() {
-  return {
-      "study",
-      "passivity|failures [FILE|MACHINE ...] [options]",
-      "what linkages do to hands: energy that contact gives, and failures of the machine",
-      "Without FILE: every machine. Exit code 1 where a bar is not met.\n"
-      "passivity: hands of 50 to 3,000 N/m go in and out of solids anywhere in the joints' "
-      "ranges,\n"
-      "while stiffness, damping, radius and friction change; then as many runs of a search for the "
-      "worst.\nCounted is the hand's work, less what the linkage gives back. The same without the "
-      "energy's limit shows\nthat the bar can fail.\n"
-      "failures: encoders that stand, are lost, swapped, reversed or slip, motors that are dead, "
-      "reversed or hot,\na broken link, each joint, at every Nth tick of six touches at 1 kHz; "
-      "before "
-      "a homing and at every Nth tick of it.\nseen: a fault was latched within 150 ticks; ticks to "
-      "it, "
-      "from there to motors at rest, the largest torque over\nthe joint's, speed of the tip and "
-      "work done on the hand: the worst of all runs.",
-      {{"--hands", "N", "passivity: of each machine (default 200)"},
-       {"--every", "N", "failures: 1 takes a quarter of an hour (default 97)"},
-       {"--json", nullptr, "for programs"}},
-      1,
-      SIZE_MAX,
-      run_study};
+  return {{"study", "passivity|failures [FILE|MACHINE ...] [options]", 1, SIZE_MAX, run_study},
+          "what linkages do to hands: energy that contact gives, and failures of the machine",
+          R"(Without FILE: every machine. Exit code 1 where a bar is not met.
+passivity: hands of 50 to 3,000 N/m go in and out of solids anywhere in the joints'
+ranges, while stiffness, damping, radius and friction change; then as many runs of a
+search for the worst. Counted is the hand's work, less what the linkage gives back. The
+same without the energy's limit shows that the bar can fail.
+failures: encoders that stand, are lost, swapped, reversed or slip, motors that are
+dead, reversed or hot, a broken link, each joint, at every Nth tick of six touches at 1
+kHz; before a homing and at every Nth tick of it.
+seen: a fault was latched within 150 ticks; ticks to it, from there to motors at rest,
+the largest torque over the joint's, speed of the tip and work done on the hand: the
+worst of all runs.)",
+          {{"--hands", "N", "passivity: of each machine (default 200)"},
+           {"--every", "N", "failures: 1 takes a quarter of an hour (default 97)"},
+           {"--json", nullptr, "for programs"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -152,14 +152,13 @@ int merge_sweep(const cli::Arguments& options) {
 
 cli::Command sweep_command() {
   return {
-      "sweep",
-      "SCENARIO --vary KEY=VALUES... -o FILE.csv [options]",
+      {"sweep", "SCENARIO --vary KEY=VALUES... -o FILE.csv [options]", 1, 1, run_sweep},
       "simulates a scenario with all combinations of values, on all cores; goes on where it ended",
-      "A row a run: its values, the figures of `firmtouch-sim score`, how many of them miss their "
-      "bar, and\nthe faults, a bit each. Rows stand in the order of the runs. Killed and started "
-      "again, it goes on and\nwrites the same bytes. On several machines: --shard 1/8 to 8/8 into "
-      "a file each, then\n`firmtouch-sim merge`; tools/batch has a make file and a SLURM script "
-      "for that.",
+      R"(A row a run: its values, the figures of `firmtouch-sim score`, how many of them miss
+their bar, and the faults, a bit each. Rows stand in the order of the runs. Killed and
+started again, it goes on and writes the same bytes. On several machines: --shard 1/8 to
+8/8 into a file each, then `firmtouch-sim merge`; tools/batch has a make file and a
+SLURM script for that.)",
       {{"--vary", "KEY=V,V,...",
         "values of a scenario's line, with unit: \"mass=60 g,75 g\"; evenly:\n"
         "                              \"hand_stiffness=100..1000:10 N/m\"; may be repeated",
@@ -167,23 +166,15 @@ cli::Command sweep_command() {
        {"-o", "FILE.csv", "the results"},
        {"--shard", "I/N", "every Nth run only, from the Ith on"},
        {"--jobs", "N", "threads (default: one a core)"},
-       {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"}},
-      1,
-      1,
-      run_sweep};
+       {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"}}};
 }
 
 cli::Command merge_command() {
-  return {
-      "merge",
-      "SHARD.csv... -o FILE.csv",
-      "puts the results of a sweep's or a catalogue's shards together, as one would have written "
-      "them",
-      "Refuses results of different batches, and names a run that is missing or there twice.",
-      {{"-o", "FILE.csv", "the results of all"}},
-      1,
-      SIZE_MAX,
-      merge_sweep};
+  return {{"merge", "SHARD.csv... -o FILE.csv", 1, SIZE_MAX, merge_sweep},
+          "puts the results of a sweep's or a catalogue's shards together, as one would have "
+          "written them",
+          "Refuses results of different batches, and names a run that is missing or there twice.",
+          {{"-o", "FILE.csv", "the results of all"}}};
 }
 
 }  // namespace firmtouch::host_sim

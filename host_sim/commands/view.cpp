@@ -58,14 +58,10 @@ int view(const cli::Arguments& options) {
 }  // namespace
 
 cli::Command view_command() {
-  return {"view",
-          "ASSET -o FILE.html",
+  return {{"view", "ASSET -o FILE.html", 1, 1, view},
           "writes a page that shows an asset in 3D, without a run",
           "",
-          {{"-o", "FILE.html", "the page; - is stdout"}},
-          1,
-          1,
-          view};
+          {{"-o", "FILE.html", "the page; - is stdout"}}};
 }
 
 }  // namespace firmtouch::host_sim

@@ -258,16 +258,14 @@ int print_z_width(const cli::Arguments& options) {
 
 cli::Command z_width_command() {
   return {
-      "z-width",
-      "[FILE|MACHINE | --table | --regimes | --estimators] [options]",
+      {"z-width", "[FILE|MACHINE | --table | --regimes | --estimators] [options]", 0, 1,
+       print_z_width},
       "prints the stiffest passive and the stiffest stable wall of an axis, or of a device's tip",
-      "passive: b > K T / 2 + |B| (Colgate & Schenkel 1994); delayed: K < (b + B) / (T / 2 + "
-      "delay)\n"
-      "(Gil, Hulin & Diaz); exact: spectral radius 1 of the discrete model; simulated: growth or "
-      "decay.\nOf a device the axis is its tip, with its least mass and its least damping, where "
-      "it is "
-      "lightest and at a pose.\nThe observer of energy (energy_reservoir_J) is not in these "
-      "figures: it holds stiffer walls.",
+      R"(passive: b > K T / 2 + |B| (Colgate & Schenkel 1994); delayed: K < (b + B) / (T / 2 +
+delay) (Gil, Hulin & Diaz); exact: spectral radius 1 of the discrete model; simulated:
+growth or decay. Of a device the axis is its tip, with its least mass and its least
+damping, where it is lightest and at a pose. The observer of energy (energy_reservoir_J)
+is not in these figures: it holds stiffer walls.)",
       {{"--table", nullptr, "28 free and 12 held axes; exit code 1 beyond 1 %"},
        {"--regimes", nullptr,
         "quantum and Coulomb friction: 16 points against describing functions; 1 beyond 10 %"},
@@ -281,10 +279,7 @@ cli::Command z_width_command() {
        {"--hand-mass", "KG", "that moves with the axis (0)"},
        {"--hand-damping", "N_S_PER_M", "of the hand, to the ground (0)"},
        {"--hand-stiffness", "N_PER_M", "of the hand, to the ground (0)"},
-       {"--json", nullptr, "of one axis: the limits as JSON"}},
-      0,
-      1,
-      print_z_width};
+       {"--json", nullptr, "of one axis: the limits as JSON"}}};
 }
 
 }  // namespace firmtouch::host_sim

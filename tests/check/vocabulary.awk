@@ -61,11 +61,18 @@ function cut_c(text,    at, piece) {
       if (!at) return
       text = substr(text, at + 2)
       in_comment = 0
-    } else if (match(text, /"([^"\\]|\\.)*"|'([^'\\]|\\.)'|\/\/.*|\/\*/)) {
+    } else if (in_raw) {
+      at = index(text, ")\"")
+      message = message " " (at ? substr(text, 1, at - 1) : text)
+      if (!at) return
+      text = substr(text, at + 2)
+      in_raw = 0
+    } else if (match(text, /R"\(|"([^"\\]|\\.)*"|'([^'\\]|\\.)'|\/\/.*|\/\*/)) {
       piece = substr(text, RSTART, RLENGTH)
       code = code substr(text, 1, RSTART - 1) " "
       text = substr(text, RSTART + RLENGTH)
       if (piece == "/*") in_comment = 1
+      else if (piece == "R\"(") in_raw = 1
       else if (piece ~ /^\/\//) comment = comment " " piece
       else if (piece ~ /^"/) message = message " " piece
     } else {
@@ -97,7 +104,7 @@ BEGIN {
 {
   file = $0
   line = 0
-  in_comment = in_block = 0
+  in_comment = in_block = in_raw = 0
   for (s in last_line) last_line[s] = -1
   ++files
   kind = file ~ /\.(hpp|cpp|h|c|html)$/ ? "c" : file ~ /\.md$/ ? "page" : "script"

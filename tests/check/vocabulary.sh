@@ -39,3 +39,7 @@ EOF
   [ "$(echo $english | look | grep -c $english)" = 1 ] || return 1
   expect='planted_english.cpp:[0-9]+: comment: forgives'
 }
+plant_raw_string_over_two_lines() {
+  printf 'const char* text = R"(The mesh\nundone by "it")";\n' >>tools/log/edit.cpp
+  expect='edit.cpp:[0-9]+: message: undone'
+}

@@ -18,15 +18,18 @@ struct Option {
 
 class Arguments;
 
-struct Command {
+/// What a command is called with, and what it then calls.
+struct Call {
   const char* name;
-  const char* usage;    // the rest of the usage line
+  const char* usage;  // the rest of the usage line
+  size_t min_positionals, max_positionals;
+  int (*run)(const Arguments& arguments);  // result: an exit code; a Failure ends it early
+};
+
+struct Command : Call {
   const char* summary;  // one line
   std::string details;  // further lines of --help, or ""
   std::vector<Option> options;
-  size_t min_positionals;
-  size_t max_positionals;
-  int (*run)(const Arguments& arguments);  // result: an exit code; a Failure ends it early
 };
 
 /// The words after a command's name, sorted into options and the rest. Takes `--name value` and

@@ -34,45 +34,45 @@ void write_source(const std::string& path, const std::vector<uint8_t>& asset,
 
 // What bake reads, and how its own files are written.
 const char* const kInputs =
-    "INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header\n"
-    "x,y,z); .ftl a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces\n"
-    "(126, 128); .bpt Bezier patches; .objects several meshes in one scene; .tool a tool of\n"
-    "several spheres; .fta what was baked before, taken as it is. Each is named after its\n"
-    "file's stem. What can be mended safely is mended and reported; the rest is refused.\n"
-    "A file .objects places meshes that are baked with it, one object a line; # is a comment:\n"
-    "  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]\n"
-    "         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]\n"
-    "An object stands until a command moves it (firmtouch-sim run: at T s move NAME).\n"
-    "A file of --materials says how triangles feel, one material a line:\n"
-    "  material NAME [stiffness K N/m] [friction F [sliding F]] [viscous C Ns/m]\n"
-    "         [waves H mm every L mm along X Y Z [and X Y Z]]\n"
-    "         [map PICTURE.pgm H mm every L mm along X Y Z and X Y Z]\n"
-    "Waves are a texture, H from crest to trough, fixed to the asset's axes; a second direction\n"
-    "makes a grid of the grooves. They are at most 2 mm and 0.238 L high. A map is a picture of 8\n"
-    "bits, square with a side of 4 to 64, that repeats every L: black is H below white. It may\n"
-    "slope by 0.75, and adds to waves. PICTURE.pgm is relative to the file.\n"
-    "NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`); the number in a\n"
-    "PLY file's face property material_index counts these lines from 1; 0 is none.\n"
-    "A file .tool has up to 8 spheres of a tool, in the frame of its handle; they touch the\n"
-    "mesh instead of one sphere at the tip:\n"
-    "  sphere X Y Z mm radius R mm\n"
-    "All together are as stiff as the wall. The handle turns by commands (firmtouch-sim run: at\n"
-    "T s turn AXIS ANGLE).\n"
-    "A catalogue has an asset a line, as words behind `firmtouch bake`; # is a comment, \"a b\"\n"
-    "one word:\n"
-    "  INPUT... -o SCENE.fta [options]\n"
-    "The results have a row a line: baked or refused, bytes, CRC, why. Killed and started again\n"
-    "it goes on, and the bytes are the same, by any number of threads and shards; put these\n"
-    "together with firmtouch-sim merge (tools/batch has a make file and a SLURM script). A\n"
-    "model that has changed since is baked anew where the results are removed. Exit code 1\n"
-    "where one was refused.";
+    R"(INPUT by extension: .obj .off .ply .stl .gltf .glb .3mf a mesh; .csv a curve (header
+x,y,z); .ftl a recorded run, which teaches a guide; .igs .iges NURBS curves or surfaces
+(126, 128); .bpt Bezier patches; .objects several meshes in one scene; .tool a tool of
+several spheres; .fta what was baked before, taken as it is. Each is named after its
+file's stem. What can be mended safely is mended and reported; the rest is refused.
+A file .objects places meshes that are baked with it, one object a line; # is a comment:
+  object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]
+         [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]
+An object stands until a command moves it (firmtouch-sim run: at T s move NAME).
+A file of --materials says how triangles feel, one material a line:
+  material NAME [stiffness K N/m] [friction F [sliding F]] [viscous C Ns/m]
+         [waves H mm every L mm along X Y Z [and X Y Z]]
+         [map PICTURE.pgm H mm every L mm along X Y Z and X Y Z]
+Waves are a texture, H from crest to trough, fixed to the asset's axes; a second direction
+makes a grid of the grooves. They are at most 2 mm and 0.238 L high. A map is a picture of 8
+bits, square with a side of 4 to 64, that repeats every L: black is H below white. It may
+slope by 0.75, and adds to waves. PICTURE.pgm is relative to the file.
+NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`); the number in a
+PLY file's face property material_index counts these lines from 1; 0 is none.
+A file .tool has up to 8 spheres of a tool, in the frame of its handle; they touch the
+mesh instead of one sphere at the tip:
+  sphere X Y Z mm radius R mm
+All together are as stiff as the wall. The handle turns by commands (firmtouch-sim run: at
+T s turn AXIS ANGLE).
+A catalogue has an asset a line, as words behind `firmtouch bake`; # is a comment, "a b"
+one word:
+  INPUT... -o SCENE.fta [options]
+The results have a row a line: baked or refused, bytes, CRC, why. Killed and started again
+it goes on, and the bytes are the same, by any number of threads and shards; put these
+together with firmtouch-sim merge (tools/batch has a make file and a SLURM script). A
+model that has changed since is baked anew where the results are removed. Exit code 1
+where one was refused.)";
 
 }  // namespace
 
 Command bake_command() {
   return {
-      "bake",
-      "INPUT... -o SCENE.fta [options], or --catalogue LIST -o RESULTS.csv [--shard I/N]",
+      {"bake", "INPUT... -o SCENE.fta [options], or --catalogue LIST -o RESULTS.csv [--shard I/N]",
+       0, SIZE_MAX, run_bake},
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
       kInputs,
       with_model_options(
@@ -122,10 +122,7 @@ Command bake_command() {
            {"--catalogue", "LIST", "bakes what each line of LIST says"},
            {"--shard", "I/N", "of a catalogue: every Nth line only, from the Ith on"},
            {"--jobs", "N", "of a catalogue: threads (default: one a core)"},
-           {"--json", nullptr, "what was made, for programs, on stdout"}}),
-      0,
-      SIZE_MAX,
-      run_bake};
+           {"--json", nullptr, "what was made, for programs, on stdout"}})};
 }
 
 int run_bake(const Arguments& arguments) {

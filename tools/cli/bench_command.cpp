@@ -18,23 +18,17 @@ constexpr const char* kOfTheSimulator[] = {"feel", "friction", "passivity"};
 
 Command bench_command() {
   return {
-      "bench",
-      "[NAME|all] [MODEL...] [options]",
+      {"bench", "[NAME|all] [MODEL...] [options]", 0, SIZE_MAX, run_bench},
       "Measures the bars of the project.",
-      "Without NAME: the benches there are. Without MODEL: the demo's part. Times are of one "
-      "thread,\n"
-      "in turn with the peer's in one run, medians of 5; only their ratio means something on "
-      "another\n"
-      "machine. A peer is another program that answers the same queries:\n"
-      "    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`",
+      R"(Without NAME: the benches there are. Without MODEL: the demo's part. Times are of one
+thread, in turn with the peer's in one run, medians of 5; only their ratio means
+something on another machine. A peer is another program that answers the same queries:
+    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`)",
       options_of_benches(
           {{"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"},
            {"--ticks", "N", "touch: ticks a model (default: 200,000; --long: 20,000,000)"},
            {"--seed", "N", "touch: seed of its first ride (default: 0)"},
-           {"--release", nullptr, "touch: 1,500 hands that leave with 20 work units a tick"}}),
-      0,
-      SIZE_MAX,
-      run_bench};
+           {"--release", nullptr, "touch: 1,500 hands that leave with 20 work units a tick"}})};
 }
 
 int run_bench(const Arguments& arguments) {

@@ -147,19 +147,19 @@ void print(const Calibration& found) {
 
 Command calibrate_command() {
   return {
-      "calibrate",
-      "DEVICE TOUCHES.csv [-o FILE] | DEVICE --plan N | DEVICE --study",
+      {"calibrate", "DEVICE TOUCHES.csv [-o FILE] | DEVICE --plan N | DEVICE --study", 1, 2,
+       run_calibrate},
       "Finds a linkage's lengths, offsets and zero angles from touches of known things.",
-      "DEVICE: a device file or a machine's name (firmtouch-sim device). TOUCHES: a header\n"
-      "count_0,count_1[,count_2],x,y,z,nx,ny,nz,radius, then a touch a line: encoder counts, and\n"
-      "in metres in the linkage's frame a point (normal and radius 0), a plate through x y z with\n"
-      "its normal, or a ball with its radius. Least squares with deviations; parameters that the\n"
-      "touches cannot determine are named and stay. Exit code 1: the touches are not fitted to\n"
-      "three times the noise. --plan prints which touches determine the parameters best, as\n"
-      "such a file: touch something near each, and write its known place. Plan half of them,\n"
-      "calibrate, and plan the others with the file found. --study: simulated\n"
-      "touches of a plan, how often the deviations are true, and Cramer and Rao's bound of the\n"
-      "error; exit code 1 beyond 50 um, or with the truth not in 93 to 97 % of the ellipsoids.",
+      R"(DEVICE: a device file or a machine's name (firmtouch-sim device). TOUCHES: a header
+count_0,count_1[,count_2],x,y,z,nx,ny,nz,radius, then a touch a line: encoder counts, and
+in metres in the linkage's frame a point (normal and radius 0), a plate through x y z with
+its normal, or a ball with its radius. Least squares with deviations; parameters that the
+touches cannot determine are named and stay. Exit code 1: the touches are not fitted to
+three times the noise. --plan prints which touches determine the parameters best, as
+such a file: touch something near each, and write its known place. Plan half of them,
+calibrate, and plan the others with the file found. --study: simulated
+touches of a plan, how often the deviations are true, and Cramer and Rao's bound of the
+error; exit code 1 beyond 50 um, or with the truth not in 93 to 97 % of the ellipsoids.)",
       {{"-o", "FILE", "the device file with the values found"},
        {"--noise", "METRES", "standard deviation of a touch (default 0.00002)"},
        {"--counts", nullptr, "counts per rad too"},
@@ -167,10 +167,7 @@ Command calibrate_command() {
        {"--study", nullptr, "calibrate a simulated machine again and again"},
        {"--runs", "N", "of the study (default 1000)"},
        {"--touches", "N", "of each run of the study (default 40)"},
-       {"--json", nullptr, "what was found, for programs; a deviation of null: not determined"}},
-      1,
-      2,
-      run_calibrate};
+       {"--json", nullptr, "what was found, for programs; a deviation of null: not determined"}}};
 }
 
 int run_calibrate(const Arguments& arguments) {

@@ -127,30 +127,24 @@ tools::HullOptions hull_options(const Arguments& arguments) {
 }
 
 Command hull_command() {
-  return {
-      "hull",
-      "MODEL --faces N[,N...] -o FILE [options]",
-      "Makes a coarse surface that encloses a model, proven on the vertices that are written.",
-      "The model is checked and mended as for bake, and must be closed. Each piece coarsens by "
-      "itself.\n"
-      "Where no edge may collapse any more, the coarsest hull reached is written and the reason "
-      "printed.",
-      with_model_options(
-          {{"-o", "FILE", "the hull (.obj .stl .off .ply); -: an .obj to stdout"},
-           {"--faces", "N[,N...]",
-            "at most so many, even (4 and more); several, falling: FILE_N.obj each, one inside "
-            "the next"},
-           {"--strategy", "1|2|lazy",
-            "1: least volume first; 2: least volume about the middle of the "
-            "star; lazy (default): 1, looking again only at an edge's turn"},
-           {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
-           {"--max-valence", "N", "faces around a vertex (default 12)"},
-           {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
-           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
-           {"--json", nullptr, "what was made, for programs, on stdout"}}),
-      1,
-      1,
-      run_hull};
+  return {{"hull", "MODEL --faces N[,N...] -o FILE [options]", 1, 1, run_hull},
+          "Makes a coarse surface that encloses a model, proven on the vertices that are written.",
+          R"(The model is checked and mended as for bake, and must be closed. Each piece coarsens by
+itself. Where no edge may collapse any more, the coarsest hull reached is written and
+the reason printed.)",
+          with_model_options(
+              {{"-o", "FILE", "the hull (.obj .stl .off .ply); -: an .obj to stdout"},
+               {"--faces", "N[,N...]",
+                "at most so many, even (4 and more); several, falling: FILE_N.obj each, one inside "
+                "the next"},
+               {"--strategy", "1|2|lazy",
+                "1: least volume first; 2: least volume about the middle of the "
+                "star; lazy (default): 1, looking again only at an edge's turn"},
+               {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
+               {"--max-valence", "N", "faces around a vertex (default 12)"},
+               {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
+               {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
+               {"--json", nullptr, "what was made, for programs, on stdout"}})};
 }
 
 int run_hull(const Arguments& arguments) {

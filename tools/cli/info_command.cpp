@@ -41,20 +41,15 @@ void print_text(const LoadedAsset& loaded) {
 }  // namespace
 
 Command info_command() {
-  return {
-      "info",
-      "ASSET.fta [--json]",
-      "Proves an asset and says what is in it.",
-      "Of a linkage it prints the stiffest wall of the initial damping that is stable on the\n"
-      "tip's least mass: stiffer ones are not enabled; and, without damping, the stiffest that\n"
-      "is passive with any passive hand. Both by the difference of two positions;\n"
-      "firmtouch-sim z-width has poses and hands.\n"
-      "Exit code 1 if this machine answers the asset's probe queries with other bits than the\n"
-      "baker did.",
-      {{"--json", nullptr, "for programs"}},
-      1,
-      1,
-      run_info};
+  return {{"info", "ASSET.fta [--json]", 1, 1, run_info},
+          "Proves an asset and says what is in it.",
+          R"(Of a linkage it prints the stiffest wall of the initial damping that is stable on the
+tip's least mass: stiffer ones are not enabled; and, without damping, the stiffest that
+is passive with any passive hand. Both by the difference of two positions;
+firmtouch-sim z-width has poses and hands.
+Exit code 1 if this machine answers the asset's probe queries with other bits than the
+baker did.)",
+          {{"--json", nullptr, "for programs"}}};
 }
 
 int run_info(const Arguments& arguments) {

@@ -280,16 +280,13 @@ int act(const Arguments& arguments) {
 
 Command log_command() {
   return {
-      "log",
-      "LOG.ftl info|csv|npy|plot|cut|join|stats [LOG.ftl...]",
+      {"log", "LOG.ftl info|csv|npy|plot|cut|join|stats [LOG.ftl...]", 2, 1000, run_log},
       "Prints what a recorded run holds, draws it, cuts and joins.",
-      "  info    the head of the log and its fields     csv    every record as a row, as stored\n"
-      "  stats   period, steps, faults, missing records  plot   force, position, deviation, "
-      "energy, "
-      "steps\n"
-      "  cut     the records from --from to before --to  join   this log and those that follow it\n"
-      "  npy     the same rows as a NumPy file\n"
-      "A damaged or cut-off log gives all its whole blocks; exit code 1 then.",
+      R"(  info    the head of the log and its fields     csv    every record as a row, as stored
+  stats   period, steps, faults, missing records  plot   force, position, deviation, energy, steps
+  cut     the records from --from to before --to  join   this log and those that follow it
+  npy     the same rows as a NumPy file
+A damaged or cut-off log gives all its whole blocks; exit code 1 then.)",
       {{"-o", "FILE",
         "where to: .ftl for cut and join, .svg or .html for plot, text for csv, .npy (- is "
         "stdout)"},
@@ -297,10 +294,7 @@ Command log_command() {
        {"--names", nullptr, "csv: further columns with the names of the set bits"},
        {"--from", "N|S", "cut: from this record's number on, or from a time: 2.5s"},
        {"--to", "N|S", "cut: to before this record's number, or this time"},
-       {"--json", nullptr, "info, stats: for programs"}},
-      2,
-      1000,
-      run_log};
+       {"--json", nullptr, "info, stats: for programs"}}};
 }
 
 int run_log(const Arguments& arguments) {

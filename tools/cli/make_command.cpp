@@ -139,38 +139,26 @@ void forbid_options_of_others(const Arguments& arguments, const Kind& kind) {
 }  // namespace
 
 Command make_command() {
-  return {
-      "make",
-      "part|cad|path|curve|surface|walk MODEL -o FILE [options]",
-      "Makes the demo's part and guide path, machined parts, splines, and paths to query a model "
-      "along; the same "
-      "on "
-      "every machine.",
-      "part     a closed mesh (.obj)\n"
-      "cad      a machined part as CAD exports it, of five kinds by seed: plate with holes, turned "
-      "part,\n"
-      "         gear, bent sheet, extrusion; millimetres with few decimals (.obj)\n"
-      "path     the guide that runs in the groove of the part of the same seed (.csv)\n"
-      "curve    a cubic spline curve that winds about in a plane (.igs)\n"
-      "surface  a bicubic spline surface of hills (.igs)\n"
-      "walk     of a mesh: a random walk that stays within 2 % of the diagonal of its surface, "
-      "0.0005\n"
-      "         diagonals a step (.csv): what a touching hand queries; of a path (.csv): a hand "
-      "led "
-      "along\n"
-      "         it once, up to 1 % of its diagonal aside; of splines (.igs, .iges, .bpt): all "
-      "through\n"
-      "         their box and a fifth of its extent beyond, 0.002 extents a step",
-      {{"-o", "FILE", "the file to write; -: to stdout"},
-       {"--seed", "N", "which of them (default 1)"},
-       {"--points", "N", "path, walk: how many (default 2000, 20000)"},
-       {"--triangles", "N", "part: at least so many (default 20000)"},
-       {"--control-points", "N", "curve, surface: how many, each way (default 15, 8)"},
-       {"--space", nullptr, "curve: not in a plane"},
-       {"--weights", nullptr, "curve, surface: a NURBS whose weights differ"}},
-      1,
-      2,
-      run_make};
+  return {{"make", "part|cad|path|curve|surface|walk MODEL -o FILE [options]", 1, 2, run_make},
+          "Makes the demo's part and guide path, machined parts, splines, and paths to query a "
+          "model along; the same on every machine.",
+          R"(part     a closed mesh (.obj)
+cad      a machined part as CAD exports it, of five kinds by seed: plate with holes, turned part,
+         gear, bent sheet, extrusion; millimetres with few decimals (.obj)
+path     the guide that runs in the groove of the part of the same seed (.csv)
+curve    a cubic spline curve that winds about in a plane (.igs)
+surface  a bicubic spline surface of hills (.igs)
+walk     of a mesh: a random walk that stays within 2 % of the diagonal of its surface, 0.0005
+         diagonals a step (.csv): what a touching hand queries; of a path (.csv): a hand led along
+         it once, up to 1 % of its diagonal aside; of splines (.igs, .iges, .bpt): all through
+         their box and a fifth of its extent beyond, 0.002 extents a step)",
+          {{"-o", "FILE", "the file to write; -: to stdout"},
+           {"--seed", "N", "which of them (default 1)"},
+           {"--points", "N", "path, walk: how many (default 2000, 20000)"},
+           {"--triangles", "N", "part: at least so many (default 20000)"},
+           {"--control-points", "N", "curve, surface: how many, each way (default 15, 8)"},
+           {"--space", nullptr, "curve: not in a plane"},
+           {"--weights", nullptr, "curve, surface: a NURBS whose weights differ"}}};
 }
 
 int run_make(const Arguments& arguments) {

@@ -14,19 +14,14 @@ namespace firmtouch::cli {
 
 Command mend_command() {
   return {
-      "mend",
-      "MODEL -o FILE [options]",
+      {"mend", "MODEL -o FILE [options]", 1, 1, run_mend},
       "Mends a mesh so that it can be touched, as bake --mend does, and writes it.",
-      "MODEL: .obj .off .ply .stl .gltf .glb .3mf; FILE: .obj .off .ply .stl, in metres. Vertices\n"
-      "near each other are welded, sheets that touch parted, dangling faces removed, holes "
-      "closed,\n"
-      "windings made alike; each is reported. Where that is not enough, --wrap puts a surface\n"
-      "around whatever is there.",
+      R"(MODEL: .obj .off .ply .stl .gltf .glb .3mf; FILE: .obj .off .ply .stl, in metres. Vertices
+near each other are welded, sheets that touch parted, dangling faces removed, holes closed,
+windings made alike; each is reported. Where that is not enough, --wrap puts a surface
+around whatever is there.)",
       with_model_options({{"-o", "FILE", "the mesh to write; -: as OBJ to stdout"},
-                          {"--json", nullptr, "what was made, for programs, on stdout"}}),
-      1,
-      1,
-      run_mend};
+                          {"--json", nullptr, "what was made, for programs, on stdout"}})};
 }
 
 int run_mend(const Arguments& arguments) {

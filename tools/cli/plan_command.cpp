@@ -189,31 +189,24 @@ std::string json_of(const Planner& planner, const std::vector<std::string>& said
 }  // namespace
 
 Command plan_command() {
-  return {
-      "plan",
-      "INPUT... --flash BYTES --ram BYTES [options]",
-      "Chooses tree, distance field, hull, program and work pool that fit a controller.",
-      "Bakes the inputs in several ways in memory and writes nothing. Takes the fastest tree that "
-      "fits,\n"
-      "then a distance field that lowers the mean work by a tenth, a hull, and the bounded tree if "
-      "there\n"
-      "is room. Programs are those that tools/check/image measures and bounds; give yours with\n"
-      "--resources. Exit code 1 where nothing fits, with what would.",
-      with_model_options(
-          {{"--flash", "BYTES", "for program and asset, such as 512K or 2M"},
-           {"--ram", "BYTES", "for variables, stack and record ring, such as 64K"},
-           {"--rate", "HZ", "ticks a second, such as 4k (default 1k)"},
-           {"--core", "m7|m4f", "whose programs are counted (default m7)"},
-           {"--mips", "N", "million instructions a second that your core was seen to do"},
-           {"--resources", "FILE",
-            "resources.json of your own build, which tools/check/image writes"},
-           {"--unsigned", nullptr, "as for bake"},
-           {"--smooth", nullptr, "as for bake"},
-           {"--picture", "FILE.svg", "the trade as a picture"},
-           {"--json", nullptr, "for programs"}}),
-      1,
-      SIZE_MAX,
-      run_plan};
+  return {{"plan", "INPUT... --flash BYTES --ram BYTES [options]", 1, SIZE_MAX, run_plan},
+          "Chooses tree, distance field, hull, program and work pool that fit a controller.",
+          R"(Bakes the inputs in several ways in memory and writes nothing. Takes the fastest tree
+that fits, then a distance field that lowers the mean work by a tenth, a hull, and the
+bounded tree if there is room. Programs are those that tools/check/image measures and
+bounds; give yours with --resources. Exit code 1 where nothing fits, with what would.)",
+          with_model_options(
+              {{"--flash", "BYTES", "for program and asset, such as 512K or 2M"},
+               {"--ram", "BYTES", "for variables, stack and record ring, such as 64K"},
+               {"--rate", "HZ", "ticks a second, such as 4k (default 1k)"},
+               {"--core", "m7|m4f", "whose programs are counted (default m7)"},
+               {"--mips", "N", "million instructions a second that your core was seen to do"},
+               {"--resources", "FILE",
+                "resources.json of your own build, which tools/check/image writes"},
+               {"--unsigned", nullptr, "as for bake"},
+               {"--smooth", nullptr, "as for bake"},
+               {"--picture", "FILE.svg", "the trade as a picture"},
+               {"--json", nullptr, "for programs"}})};
 }
 
 int run_plan(const Arguments& arguments) {

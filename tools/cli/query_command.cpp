@@ -54,30 +54,25 @@ CsvTable query_rows(const std::vector<std::string>& columns, const Arguments& ar
 
 Command query_command() {
   return {
-      "query",
-      "ASSET.fta NAME distance|segment|hull|curve|spline|footpoints [options] < IN.csv > OUT.csv",
+      {"query",
+       "ASSET.fta NAME distance|segment|hull|curve|spline|footpoints [options] < IN.csv > OUT.csv",
+       3, 3, run_query},
       "Answers each row of a CSV as the controller would, bit for bit.",
-      "in:  distance, curve, spline, footpoints: header x,y,z\n"
-      "     segment, hull: header ax,ay,az,bx,by,bz     (metres)\n"
-      "     hull --primitive ray: ax,ay,az,dx,dy,dz; triangle: ax,ay,az,bx,by,bz,cx,cy,cz\n"
-      "out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact\n"
-      "               (negative inside; sign 0: unknown; lower: no point of the surface is "
-      "nearer)\n"
-      "     segment, hull: hit,t,triangle,steps    (the first crossing from a to b; -1: no "
-      "triangle)\n"
-      "     hull --primitive ray: t in lengths of its direction; triangle: hit,triangle,steps (the "
-      "lowest\n"
-      "               that it crosses); --all: asked,triangle\n"
-      "     curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact\n"
-      "     spline:   distance,cx,cy,cz,piece,u,v,lower,steps,exact   (piece: of the file, from 0; "
-      "u, "
-      "v: its own)\n"
-      "     footpoints: point,kind,distance,cx,cy,cz,piece,u,v   (a row a foot-point of a spline, "
-      "nearest\n"
-      "               first; kind: min, max, saddle or end, which is an end, a corner or of a "
-      "border; in\n"
-      "               double, on this machine alone)\n"
-      "Rows are answered in order, each warm-started by the one before.",
+      R"(in:  distance, curve, spline, footpoints: header x,y,z
+     segment, hull: header ax,ay,az,bx,by,bz     (metres)
+     hull --primitive ray: ax,ay,az,dx,dy,dz; triangle: ax,ay,az,bx,by,bz,cx,cy,cz
+out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact
+               (negative inside; sign 0: unknown; lower: no point of the surface is nearer)
+     segment, hull: hit,t,triangle,steps    (the first crossing from a to b; -1: no triangle)
+     hull --primitive ray: t in lengths of its direction; triangle: hit,triangle,steps (the lowest
+               that it crosses); --all: asked,triangle
+     curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact
+     spline:   distance,cx,cy,cz,piece,u,v,lower,steps,exact
+               (piece: of the file, from 0; u, v: its own)
+     footpoints: point,kind,distance,cx,cy,cz,piece,u,v   (a row a foot-point of a spline, nearest
+               first; kind: min, max, saddle or end, which is an end, a corner or of a border; in
+               double, on this machine alone)
+Rows are answered in order, each warm-started by the one before.)",
       {{"--cold", nullptr, "each row on its own"},
        {"--work", "N",
         "at most N work units a query, of about 100 instructions of a Cortex-M7 (default: "
@@ -105,10 +100,7 @@ Command query_command() {
         "segment, hull: every crossing, a row each (segment,t,triangle), in order of t"},
        {"--primitive", "KIND", "hull: segment (default), ray or triangle"},
        {"--base", "N",
-        "hull, refine: faces that a segment meets at first (default: the coarsest)"}},
-      3,
-      3,
-      run_query};
+        "hull, refine: faces that a segment meets at first (default: the coarsest)"}}};
 }
 
 int run_query(const Arguments& arguments) {

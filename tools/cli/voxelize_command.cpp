@@ -74,26 +74,19 @@ std::string json_of(const tools::DistanceField& made, const std::string& output)
 
 Command voxelize_command() {
   return {
-      "voxelize",
-      "MODEL... -n LONG_AXIS_CELLS [-o FILE] [options]",
+      {"voxelize", "MODEL... -n LONG_AXIS_CELLS [-o FILE] [options]", 1, SIZE_MAX, run_voxelize},
       "Voxels of closed models: surface, inside, outside, and the distance and closest point of "
       "each.",
-      "All models share one grid: its long axis has LONG_AXIS_CELLS voxels. Distance is to the "
-      "nearest\n"
-      "surface of any, negative inside of any. The .vti has a point a voxel with the arrays "
-      "distance,\n"
-      "closest_point, triangle, object, side and kind; ParaView opens it. The .nrrd has the "
-      "distances;\n"
-      "3D Slicer opens it.",
+      R"(All models share one grid: its long axis has LONG_AXIS_CELLS voxels. Distance is to the
+nearest surface of any, negative inside of any. The .vti has a point a voxel with the
+arrays distance, closest_point, triangle, object, side and kind; ParaView opens it. The
+.nrrd has the distances; 3D Slicer opens it.)",
       {{"-n", "LONG_AXIS_CELLS", "voxels along the longest side, 1 to 4096"},
        {"-o", "FILE", "a .vti or .nrrd to write; -: a .vti to stdout"},
        {"--interior", nullptr, "distances only for voxels on a surface or inside"},
        {"--close-holes", nullptr, "each hole of a model gets a cap of triangles, reported"},
        {"--threads", "N", "how many compute (default: one a processor; the result is the same)"},
-       {"--json", nullptr, "what was made, for programs, on stdout"}},
-      1,
-      SIZE_MAX,
-      run_voxelize};
+       {"--json", nullptr, "what was made, for programs, on stdout"}}};
 }
 
 int run_voxelize(const Arguments& arguments) {
