@@ -23,6 +23,16 @@ Vec PlacedMesh::to_own(Vec device_m) const {
 
 Vec PlacedMesh::vertex_m(uint32_t i) const { return to_device(tools::to_point(mesh.vertex(i))); }
 
+void PlacedMesh::append_to(std::vector<Vec>& vertices_m,
+                           std::vector<std::array<uint32_t, 3>>& triangles) const {
+  const auto first = static_cast<uint32_t>(vertices_m.size());
+  for (uint32_t i = 0; i < mesh.vertices().size(); ++i) vertices_m.push_back(vertex_m(i));
+  for (uint32_t i = 0; i < mesh.head().triangle_count; ++i) {
+    const mesh::Triangle<uint32_t> t = mesh.triangle(i);
+    triangles.push_back({first + t.corner[0], first + t.corner[1], first + t.corner[2]});
+  }
+}
+
 MovingMeshes::MovingMeshes(std::vector<PlacedMesh> meshes, float tick_period_s)
     : meshes_(std::move(meshes)), speed_(meshes_.size()), tick_period_s_(tick_period_s) {}
 

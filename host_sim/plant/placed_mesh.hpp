@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct PlacedMesh {
   Vec turned(Vec own) const;  // a direction
   /// In the device frame. Pre: i < mesh.vertices().size().
   Vec vertex_m(uint32_t i) const;
+  /// All of it behind what is there, in the device frame.
+  void append_to(std::vector<Vec>& vertices_m,
+                 std::vector<std::array<uint32_t, 3>>& triangles) const;
 };
 
 /// The same meshes as they move, by the ticks of a run. The arithmetic of the motion is the

@@ -71,13 +71,7 @@ void simplify(Scene3d& scene3d, Vec low, double cell_m) {
 }
 
 void add_mesh(Scene3d& scene3d, const PlacedMesh& placed, bool is_object) {
-  const auto first = static_cast<uint32_t>(scene3d.vertices.size());
-  for (uint32_t i = 0; i < placed.mesh.vertices().size(); ++i)
-    scene3d.vertices.push_back(placed.vertex_m(i));
-  for (uint32_t i = 0; i < placed.mesh.head().triangle_count; ++i) {
-    const mesh::Triangle<uint32_t> t = placed.mesh.triangle(i);
-    scene3d.triangles.push_back({first + t.corner[0], first + t.corner[1], first + t.corner[2]});
-  }
+  placed.append_to(scene3d.vertices, scene3d.triangles);
   if (is_object)
     scene3d.objects.push_back({placed.name, static_cast<uint32_t>(scene3d.triangles.size())});
 }

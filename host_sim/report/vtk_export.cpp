@@ -22,15 +22,7 @@ PolyData scene_of(const Environment& environment, const std::vector<PlacedMesh>&
   for (const Vec& p : environment.tessellation().vertices)
     data.points_m.push_back(p + environment.origin_m());
   data.triangles = environment.tessellation().triangles;
-  for (const PlacedMesh& placed : meshes) {
-    const uint32_t first = static_cast<uint32_t>(data.points_m.size());
-    for (uint32_t i = 0; i < placed.mesh.vertices().size(); ++i)
-      data.points_m.push_back(placed.vertex_m(i));
-    for (uint32_t i = 0; i < placed.mesh.head().triangle_count; ++i) {
-      const mesh::Triangle<uint32_t> t = placed.mesh.triangle(i);
-      data.triangles.push_back({first + t.corner[0], first + t.corner[1], first + t.corner[2]});
-    }
-  }
+  for (const PlacedMesh& placed : meshes) placed.append_to(data.points_m, data.triangles);
   if (environment.has_guide()) {
     data.lines.emplace_back();
     for (const Vec& p : environment.guide_m()) {

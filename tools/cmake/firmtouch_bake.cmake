@@ -59,6 +59,20 @@ function(firmtouch_add_host_tools)
     VERBATIM)
 endfunction()
 
+# Target `target`: the host's program writes `output` (relative: in the current binary folder) by `words` -o output `options`.
+function(firmtouch_add_output target output verb words options depends)
+  get_filename_component(path ${output} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
+  firmtouch_host_program(program program_depends)
+  add_custom_command(
+    OUTPUT ${path}
+    COMMAND ${program} ${words} -o ${path} ${options}
+    DEPENDS ${depends} ${program_depends}
+    COMMENT "${verb} ${output}"
+    VERBATIM)
+  add_custom_target(${target} DEPENDS ${path})
+  set_target_properties(${target} PROPERTIES FIRMTOUCH_ASSET ${path})
+endfunction()
+
 # firmtouch_bake(TARGET NAME INPUTS FILE... OUTPUT FILE.fta [OPTIONS ...]): target NAME, which bakes OUTPUT (relative: in
 # the current binary folder). INPUTS may be files that other targets make; name those targets in DEPENDS.
 function(firmtouch_bake)
@@ -71,16 +85,7 @@ function(firmtouch_bake)
     get_filename_component(input ${input} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
     list(APPEND inputs ${input})
   endforeach()
-  get_filename_component(output ${bake_OUTPUT} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
-  firmtouch_host_program(program depends)
-  add_custom_command(
-    OUTPUT ${output}
-    COMMAND ${program} bake ${inputs} -o ${output} ${bake_OPTIONS}
-    DEPENDS ${inputs} ${bake_DEPENDS} ${depends}
-    COMMENT "Baking ${bake_OUTPUT}"
-    VERBATIM)
-  add_custom_target(${bake_TARGET} DEPENDS ${output})
-  set_target_properties(${bake_TARGET} PROPERTIES FIRMTOUCH_ASSET ${output})
+  firmtouch_add_output(${bake_TARGET} ${bake_OUTPUT} "Baking" "bake;${inputs}" "${bake_OPTIONS}" "${inputs};${bake_DEPENDS}")
 endfunction()
 
 # firmtouch_make(TARGET NAME KIND part|path|walk [MODEL FILE] OUTPUT FILE [OPTIONS ...]): target NAME, which generates a
@@ -90,15 +95,7 @@ function(firmtouch_make)
   if(NOT make_TARGET OR NOT make_KIND OR NOT make_OUTPUT OR make_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "firmtouch_make(TARGET name KIND part|path|walk [MODEL file] OUTPUT file [OPTIONS ...])")
   endif()
-  get_filename_component(output ${make_OUTPUT} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
-  firmtouch_host_program(program depends)
-  add_custom_command(
-    OUTPUT ${output}
-    COMMAND ${program} make ${make_KIND} ${make_MODEL} -o ${output} ${make_OPTIONS}
-    DEPENDS ${make_MODEL} ${depends}
-    COMMENT "Making ${make_OUTPUT}"
-    VERBATIM)
-  add_custom_target(${make_TARGET} DEPENDS ${output})
+  firmtouch_add_output(${make_TARGET} ${make_OUTPUT} "Making" "make;${make_KIND};${make_MODEL}" "${make_OPTIONS}" "${make_MODEL}")
 endfunction()
 
 # firmtouch_embed(TARGET NAME ASSET scene.fta|BAKE_TARGET SYMBOL SYM): static library NAME with

@@ -271,28 +271,16 @@ void turn_askew(CadPart& part, Random& random) {
   part.decimals = 6;
 }
 
+// In the order of CadKind.
+constexpr CadPart (*kMake[])(Random&) = {make_plate, make_turned, make_gear, make_sheet,
+                                         make_extrusion};
+static_assert(std::size(kMake) == kCadKinds);
+
 }  // namespace
 
 CadPart make_cad(uint64_t seed) {
   Random random(seed ^ 0x636164ull);
-  CadPart part;
-  switch (static_cast<CadKind>(seed % kCadKinds)) {
-    case CadKind::kPlate:
-      part = make_plate(random);
-      break;
-    case CadKind::kTurned:
-      part = make_turned(random);
-      break;
-    case CadKind::kGear:
-      part = make_gear(random);
-      break;
-    case CadKind::kSheet:
-      part = make_sheet(random);
-      break;
-    case CadKind::kExtrusion:
-      part = make_extrusion(random);
-      break;
-  }
+  CadPart part = kMake[seed % kCadKinds](random);
   if (seed / kCadKinds % 2 == 1) turn_askew(part, random);
   return part;
 }
