@@ -103,7 +103,8 @@ class Surfaces : public FirstOf<Policies...> {
   /// Result: false if it is refused.
   bool take_command(uint32_t command, float value) {
     bool is_taken = false;
-    use_moving([&](auto& surface) { is_taken = surface.take_command(command, value); });
+    use_kind<MovingSurface>(
+        [&](auto& surface) { is_taken = surface.take_command(command, value); });
     return is_taken;
   }
   /// Of the surface that has textures, if the asset has it.
@@ -113,14 +114,14 @@ class Surfaces : public FirstOf<Policies...> {
     return by;
   }
   void advance(float passed_s) {
-    use_moving([&](auto& surface) { surface.advance(passed_s); });
+    use_kind<MovingSurface>([&](auto& surface) { surface.advance(passed_s); });
   }
   /// Of the surface whose tool has a handle.
   void begin_torque() {
-    use_turning([](auto& surface) { surface.begin_torque(); });
+    use_kind<TorqueSurface>([](auto& surface) { surface.begin_torque(); });
   }
   void put_torque(bool is_new, record::TickOutput& output) {
-    use_turning([&](auto& surface) { surface.put_torque(is_new, output); });
+    use_kind<TorqueSurface>([&](auto& surface) { surface.put_torque(is_new, output); });
   }
 
  private:
@@ -128,21 +129,14 @@ class Surfaces : public FirstOf<Policies...> {
   static void stiffen(const P& surface, scene::Stiffening& by) {
     if constexpr (__is_base_of(TexturedSurface, P)) by = surface.stiffening();
   }
-  template <class Use>
-  void use_moving(const Use& use) {
-    this->use_open([&](auto& surface) { use_if_it_moves(surface, use); });
+  // Of the surface in use, if it is a `Kind`.
+  template <class Kind, class Use>
+  void use_kind(const Use& use) {
+    this->use_open([&](auto& surface) { use_if_it_is<Kind>(surface, use); });
   }
-  template <class P, class Use>
-  static void use_if_it_moves(P& surface, const Use& use) {
-    if constexpr (__is_base_of(MovingSurface, P)) use(surface);
-  }
-  template <class Use>
-  void use_turning(const Use& use) {
-    this->use_open([&](auto& surface) { use_if_it_turns(surface, use); });
-  }
-  template <class P, class Use>
-  static void use_if_it_turns(P& surface, const Use& use) {
-    if constexpr (__is_base_of(TorqueSurface, P)) use(surface);
+  template <class Kind, class P, class Use>
+  static void use_if_it_is(P& surface, const Use& use) {
+    if constexpr (__is_base_of(Kind, P)) use(surface);
   }
 };
 

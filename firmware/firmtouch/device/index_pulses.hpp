@@ -10,16 +10,9 @@
 namespace firmtouch::device {
 
 /// As an asset stores them, behind the linkage and its homing.
-class IndexPulses {
- public:
-  bool is_open() const { return layout_ != nullptr; }
-  /// Pre: is_open().
-  const IndexLayout& layout() const { return *layout_; }
-
- private:
+class IndexPulses : public StoredPart<IndexLayout> {
   friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage,
                             const StoredHoming& homing, IndexPulses& to);
-  const IndexLayout* layout_ = nullptr;
 };
 
 /// What is before the index pulses in a section of type kLinkageSection.

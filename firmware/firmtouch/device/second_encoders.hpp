@@ -9,15 +9,8 @@
 namespace firmtouch::device {
 
 /// As an asset stores them, behind the linkage and its homing.
-class SecondEncoders {
- public:
-  bool is_open() const { return layout_ != nullptr; }
-  /// Pre: is_open().
-  const SecondEncodersLayout& layout() const { return *layout_; }
-
- private:
+class SecondEncoders : public StoredPart<SecondEncodersLayout> {
   friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to);
-  const SecondEncodersLayout* layout_ = nullptr;
 };
 
 /// What is before the second encoders in a section of type kLinkageSection.

@@ -4,18 +4,15 @@
 
 namespace firmtouch::device {
 
-/// How the linkage of an asset is homed, as it stores it.
-class StoredHoming {
+/// How the linkage of an asset is homed, as it stores it. Not open: the counts are those of the
+/// joints from the beginning.
+class StoredHoming : public StoredPart<HomingLayout> {
  public:
-  /// False: the counts are those of the joints from the beginning.
-  bool is_open() const { return layout_ != nullptr; }
-  /// Pre of what follows: is_open().
-  const HomingLayout& layout() const { return *layout_; }
+  /// Pre: is_open().
   HomingSettings settings() const;
 
  private:
   friend core::Verdict open(core::Bytes section, StoredLinkage& linkage, StoredHoming& homing);
-  const HomingLayout* layout_ = nullptr;
 };
 
 /// Proves a section of type kLinkageSection with or without homing. Both are open only where the

@@ -7,11 +7,21 @@
 // RAM changes a link or a limit.
 namespace firmtouch::device {
 
-class StoredLinkage {
+/// A part of a section of type kLinkageSection. Its open() proves it.
+template <class Layout>
+class StoredPart {
  public:
   bool is_open() const { return layout_ != nullptr; }
+  /// Pre: is_open().
+  const Layout& layout() const { return *layout_; }
+
+ protected:
+  const Layout* layout_ = nullptr;
+};
+
+class StoredLinkage : public StoredPart<LinkageLayout> {
+ public:
   /// Pre of what follows: is_open().
-  const LinkageLayout& layout() const { return *layout_; }
   FiveBar five_bar() const;
   SerialArm serial_arm() const;
   Delta delta() const;
@@ -21,7 +31,6 @@ class StoredLinkage {
 
  private:
   friend core::Verdict open(core::Bytes section, StoredLinkage& to);
-  const LinkageLayout* layout_ = nullptr;
 };
 
 /// Proves a section of type kLinkageSection; `to` is open where the verdict is passed. The bytes
