@@ -1,6 +1,7 @@
 // The ground floor: check sums, spans of structs, the hash that machines compare.
 #include <stdint.h>
 
+#include "firmtouch/core/bisect.hpp"
 #include "firmtouch/core/bytes.hpp"
 #include "firmtouch/core/crc32.hpp"
 #include "firmtouch/core/hash.hpp"
@@ -121,4 +122,19 @@ TEST(Verdict_RuleZero_IsPassed) {
   CHECK(!core::reject(3, 9).ok());
   CHECK_EQ(core::reject(3, 9).rule, 3u);
   CHECK_EQ(core::reject(3, 9).element, 9u);
+}
+
+TEST(LastThat_AnyCountAndBorder_IsTheIndexBeforeIt) {
+  for (uint32_t count = 0; count < 40; ++count)
+    for (uint32_t border = 0; border <= count; ++border) {
+      uint32_t calls = 0;
+      const uint32_t found = core::last_that(count, [&](uint32_t i) {
+        CHECK_LT(i, count);
+        ++calls;
+        return i < border;
+      });
+      CHECK_EQ(found, border > 0 ? border - 1 : 0u);
+      CHECK_LE(calls, 6u);
+    }
+  CHECK_EQ(core::last_that(INT32_MAX, [](uint32_t i) { return i < 0x7FFFFFF0u; }), 0x7FFFFFEFu);
 }

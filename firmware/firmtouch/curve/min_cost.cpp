@@ -1,5 +1,6 @@
 #include "firmtouch/curve/min_cost.hpp"
 
+#include "firmtouch/core/bisect.hpp"
 #include "firmtouch/curve/answer.hpp"
 #include "firmtouch/curve/arc_penalty.hpp"
 #include "firmtouch/curve/piece.hpp"
@@ -183,15 +184,8 @@ class LeastCost {
 
 // The segment that holds an arc position: what a cold query begins with.
 uint32_t segment_at(const View& curve, float arc) {
-  uint32_t first = 0, last = curve.segment_count();
-  while (last - first > 1) {
-    const uint32_t middle = first + (last - first) / 2;
-    if (curve.arcs()[middle] <= arc)
-      first = middle;
-    else
-      last = middle;
-  }
-  return first;
+  const float* arcs = curve.arcs().data();
+  return core::last_that(curve.segment_count(), [=](uint32_t i) { return arcs[i] <= arc; });
 }
 
 // Lower bound of the true cost. `found`: the least that was computed; its distance loses `lost_m`.

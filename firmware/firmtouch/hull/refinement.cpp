@@ -1,5 +1,6 @@
 #include "firmtouch/hull/refinement.hpp"
 
+#include "firmtouch/core/bisect.hpp"
 #include "firmtouch/hull/base_hull_segment.hpp"
 #include "firmtouch/hull/box_descent.hpp"
 #include "firmtouch/hull/nearest_candidates.hpp"
@@ -13,16 +14,7 @@ using math::Vec3;
 
 uint32_t triangle_of(const BaseHull& base_hull, uint32_t face) {
   const core::Span<const BaseHullTriangle> all = base_hull.triangles();
-  uint32_t low = 0, high = all.size();
-  while (high - low > 1) {
-    const uint32_t middle = (low + high) / 2;
-    if (all[middle].face <= face) {
-      low = middle;
-    } else {
-      high = middle;
-    }
-  }
-  return all[low].triangle;
+  return all[core::last_that(all.size(), [&](uint32_t i) { return all[i].face <= face; })].triangle;
 }
 
 // Shape that a refinement is queried with. enter(): time at which it meets a box, above `limit` if

@@ -1,19 +1,13 @@
 #pragma once
 // Which pieces of a guide follow each other, for .cpp files of this module only.
+#include "firmtouch/core/bisect.hpp"
 #include "firmtouch/spline/guide/view.hpp"
 
 namespace firmtouch::spline {
 
 static inline uint32_t chain_of(const GuideView& guide, uint32_t piece) {
-  uint32_t first = 0, last = guide.chains().size();
-  while (last - first > 1) {
-    const uint32_t middle = first + (last - first) / 2;
-    if (guide.chains()[middle].first_piece <= piece)
-      first = middle;
-    else
-      last = middle;
-  }
-  return first;
+  return core::last_that(guide.chains().size(),
+                         [&](uint32_t i) { return guide.chains()[i].first_piece <= piece; });
 }
 
 /// The piece behind its last one.

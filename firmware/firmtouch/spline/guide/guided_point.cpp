@@ -258,14 +258,8 @@ void go_on_at_other_end(const GuideView& guide, int end, Vec3 p_m, float distanc
 
 Vec3 point_at_arc(const GuideView& guide, float arc) {
   const float wanted_m = (arc > 0.0f ? (arc < 1.0f ? arc : 1.0f) : 0.0f) * guide.length_m();
-  uint32_t first = 0, last = guide.arcs().size() - 1;
-  while (last - first > 1) {
-    const uint32_t middle = first + (last - first) / 2;
-    if (guide.arcs()[middle] <= wanted_m)
-      first = middle;
-    else
-      last = middle;
-  }
+  const uint32_t first = core::last_that(guide.arcs().size() - 1,
+                                         [&](uint32_t i) { return guide.arcs()[i] <= wanted_m; });
   const float rise_m = guide.arcs()[first + 1] - guide.arcs()[first];
   const float t = rise_m > 0.0f ? (wanted_m - guide.arcs()[first]) / rise_m : 0.0f;
   const uint32_t intervals = guide.intervals();
