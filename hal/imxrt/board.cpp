@@ -59,11 +59,7 @@ void board_begin() {
   pin_as(kConsolePin, 2);
   for (const Pin& pin : kLinkPins) pin_as(pin, 2, Pull::kUp);
   reg(kPads + 0x550) = 1;  // UART 6 receives from pad AD 3
-  console_begin();
-  motors_begin();
-  encoders_begin();
-  clock_begin();
-  link_begin();
+  peripherals_begin();
 }
 
 // 24 MHz: 24 samples a bit at 1 Mbaud, 16 below.

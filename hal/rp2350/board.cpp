@@ -53,11 +53,7 @@ void board_begin() {
   power_begin();
   pin_as(kConsolePin, kUartFunction);
   for (const Pin& pin : kLinkPins) pin_as(pin, kUartFunction, kPullUp);
-  console_begin();
-  motors_begin();
-  encoders_begin();
-  clock_begin();
-  link_begin();
+  peripherals_begin();
 }
 
 // With its FIFO: an interrupt from four bytes on, or 32 bits behind the last.

@@ -34,4 +34,13 @@ void link_begin();
 void encoders_begin();
 void motors_begin();
 
+/// All of it, once clocks and pins are set.
+inline void peripherals_begin() {
+  console_begin();
+  motors_begin();
+  encoders_begin();
+  clock_begin();
+  link_begin();
+}
+
 }  // namespace firmtouch::hal

@@ -14,11 +14,7 @@ void board_begin() {
   pin_alternate(kConsolePin);
   for (const Pin& pin : kLinkPins) pin_alternate(pin, Pull::kUp);
   reg(kLink + kUsartErrors) = kNoOverrun;  // a lost byte breaks a frame, no more
-  console_begin();
-  motors_begin();
-  encoders_begin();
-  clock_begin();
-  link_begin();
+  peripherals_begin();
 }
 
 }  // namespace firmtouch::hal
