@@ -6,8 +6,11 @@
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/derived.hpp"
 #include "firmtouch/curve/view.hpp"
+#include "harness/rules.hpp"
 
 namespace firmtouch::curve_test {
+
+using test::bytes;
 
 /// A curve of up to `Most` samples and all that follows from them.
 template <uint32_t Most>
@@ -37,11 +40,7 @@ struct CurveOf {
             bytes(runs, run_count() * uint32_t{sizeof(curve::Run)}),
             bytes(radii, run_count() * (curve::parts_of(levels()) + 1) * 2)};
   }
-  curve::View view() const {
-    curve::View opened;
-    const core::Verdict verdict = curve::open(sections(), opened);
-    return verdict.ok() ? opened : curve::View{};
-  }
+  curve::View view() const { return test::opened<curve::View>(sections()); }
 
   void build(const curve::Sample* from, uint32_t count) {
     head = {};
@@ -105,9 +104,6 @@ struct CurveOf {
   curve::Track track() const { return {samples, head.sample_count, head.is_closed != 0}; }
 
  private:
-  static core::Bytes bytes(const void* data, uint32_t size) {
-    return {static_cast<const uint8_t*>(data), size};
-  }
   double spacing_m(uint32_t i) const {
     return static_cast<double>(math::length(curve::vec(samples[i]) - curve::vec(samples[i - 1])));
   }

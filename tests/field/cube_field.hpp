@@ -3,10 +3,12 @@
 #include "firmtouch/field/centre.hpp"
 #include "firmtouch/field/view.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "harness/test.hpp"
+#include "harness/rules.hpp"
 #include "mesh/cube.hpp"
 
 namespace firmtouch::field_test {
+
+using test::bytes;
 
 struct CubeField {
   static constexpr uint32_t kSide = 8, kCells = kSide * kSide * kSide;
@@ -35,11 +37,6 @@ struct CubeField {
   }
   field::Sections sections() const {
     return {bytes(&head, sizeof head), bytes(words, sizeof words), bytes(seeds, sizeof seeds)};
-  }
-
- private:
-  static core::Bytes bytes(const void* from, uint32_t count) {
-    return {static_cast<const uint8_t*>(from), count};
   }
 };
 

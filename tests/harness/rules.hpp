@@ -6,8 +6,18 @@
 // What the tests of reject rules share: each condition is tripped alone.
 namespace firmtouch::test {
 
+inline core::Bytes bytes(const void* from, uint32_t count) {
+  return {static_cast<const uint8_t*>(from), count};
+}
 inline core::Bytes shorter(core::Bytes bytes, uint32_t by) {
   return {bytes.data(), bytes.size() - by};
+}
+
+/// Not open if the sections break a rule.
+template <class View, class Sections>
+View opened(const Sections& sections) {
+  View view;
+  return open(sections, view).ok() ? view : View{};
 }
 
 /// What open(parts..., view) says. The view is open only if they pass.

@@ -4,8 +4,11 @@
 #include <stdint.h>
 
 #include "firmtouch/mesh/view.hpp"
+#include "harness/rules.hpp"
 
 namespace firmtouch::mesh_test {
+
+using test::bytes;
 
 struct Cube {
   static constexpr uint32_t kVertices = 8, kTriangles = 12, kNodes = 5;
@@ -42,16 +45,9 @@ struct Cube {
     s.edge_folds = bytes(folds, sizeof folds);
     return s;
   }
-  mesh::View view() const {
-    mesh::View opened;
-    const core::Verdict verdict = mesh::open(sections(), opened);
-    return verdict.ok() ? opened : mesh::View{};
-  }
+  mesh::View view() const { return test::opened<mesh::View>(sections()); }
 
  private:
-  static core::Bytes bytes(const void* from, uint32_t count) {
-    return {static_cast<const uint8_t*>(from), count};
-  }
   static float sign(uint32_t vertex, uint32_t axis) { return (vertex >> axis) & 1u ? 1.0f : -1.0f; }
 
   // (+-1, +-1, +-1) / sqrt 3 in octahedral form: a third along each axis, folded where z is below.

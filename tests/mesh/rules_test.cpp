@@ -37,9 +37,6 @@ struct Chain {
   }
   mesh::Sections sections() const {
     mesh::Sections s = cube.sections();
-    const auto bytes = [](const void* from, uint32_t count) {
-      return core::Bytes{static_cast<const uint8_t*>(from), count};
-    };
     s.triangles16 = bytes(triangles, cube.head.triangle_count * 6);
     s.nodes = bytes(nodes, cube.head.node_count * 32);
     s.parents = bytes(parents, cube.head.node_count * 4);

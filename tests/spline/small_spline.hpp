@@ -9,9 +9,12 @@
 #include "firmtouch/spline/proof/opening.hpp"
 #include "firmtouch/spline/proof/patch_radius.hpp"
 #include "firmtouch/spline/surface/patch_grid.hpp"
+#include "harness/rules.hpp"
 #include "spline/stored_point.hpp"
 
 namespace firmtouch::spline_test {
+
+using test::bytes;
 
 /// Two cubics in space that meet with a corner, or two patches (cubic by quadratic) beside each
 /// other; each cut into two leaves along u.
@@ -58,11 +61,7 @@ struct SmallSpline {
     }
     return made;
   }
-  spline::View view() const {
-    spline::View opened;
-    const core::Verdict verdict = spline::open(sections(), opened);
-    return verdict.ok() ? opened : spline::View{};
-  }
+  spline::View view() const { return test::opened<spline::View>(sections()); }
   spline::LeafShape shape(uint32_t leaf) const {
     return shape(leaf / 2, spline::region_of(pieces[leaf / 2], leaf % 2, 0));
   }
@@ -100,10 +99,6 @@ struct SmallSpline {
   }
 
  private:
-  static core::Bytes bytes(const void* data, uint32_t size) {
-    return {static_cast<const uint8_t*>(data), size};
-  }
-
   void put_piece(uint32_t i, math::Vec3 origin_m, bool is_surface, bool is_rational) {
     // s, s^2, s^3; t and t^2; s t.
     static const float kFirst[][3] = {{0, 0, 0},       {1, 0, 0},       {0, 0.125f, 0},
