@@ -24,8 +24,6 @@ struct Place {
   double scale;
 };
 
-double wide(float a) { return static_cast<double>(a); }
-
 std::vector<Place> places_of(LinkageDevice& device, bool with_counts) {
   std::vector<Place> all;
   const auto length = [&](const std::string& name, float& value) {

@@ -10,8 +10,6 @@ constexpr int kGrid = 6;  // poses a joint
 constexpr double kBall_m = 0.01;
 constexpr uint32_t kKinds = 3, kCandidates = 300, kMaxSweeps = 20;
 
-double wide(float a) { return static_cast<double>(a); }
-
 JointMotion pose_of(const LinkageDevice& device, const double (&share)[kJoints]) {
   JointMotion at;
   for (uint32_t k = 0; k < device.joints.joints; ++k) {

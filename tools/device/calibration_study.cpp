@@ -8,8 +8,6 @@
 namespace firmtouch::tools {
 namespace {
 
-double wide(float a) { return static_cast<double>(a); }
-
 // The start of a calibration: links and zero angles that are off.
 LinkageDevice spoiled(LinkageDevice device, const StudySettings& settings, Chance& chance) {
   const auto off = [&](float& length_m) {

@@ -9,8 +9,6 @@ using device::Delta;
 using device::FiveBar;
 using device::SerialArm;
 
-double wide(float a) { return static_cast<double>(a); }
-
 std::vector<Link> links(const FiveBar& bar) {
   return {{"proximal", 0, wide(bar.proximal_m[0])},
           {"proximal", 1, wide(bar.proximal_m[1])},

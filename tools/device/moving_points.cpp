@@ -9,8 +9,6 @@ using device::Delta;
 using device::FiveBar;
 using device::SerialArm;
 
-double wide(float a) { return static_cast<double>(a); }
-
 // The end of a link of `length_m` that joint `k` turns in the plane of `out` and `up`.
 MovingPoint link_end(Point base_m, Point out, Point up, double length_m, uint32_t k,
                      const JointMotion& motion) {

@@ -3,6 +3,8 @@
 
 namespace firmtouch::tools {
 
+inline double wide(float a) { return static_cast<double>(a); }
+
 constexpr uint32_t kJoints = device::kMaxJoints;
 
 /// A point of a linkage in motion, in double. Its acceleration is the columns times the joints'
