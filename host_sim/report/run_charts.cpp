@@ -122,11 +122,10 @@ std::string note_of_distance(const Summary& s) {
 RunCharts::RunCharts(const Environment& environment, const RunFacts& facts,
                      const tools::LinkageDevice* linkage)
     : facts_(facts),
-      ticks_per_bin_(1 + (facts.ticks - 1) / static_cast<uint32_t>(kMaxBins)),
-      bins_(1 + (facts.ticks - 1) / ticks_per_bin_),
+      ticks_per_bin_(1 + (facts.ticks + facts.spare_ticks - 1) / static_cast<uint32_t>(kMaxBins)),
+      bins_(1 + (facts.ticks + facts.spare_ticks - 1) / ticks_per_bin_),
       charts_(charts_of(environment, linkage)) {
-  axis_.seconds = static_cast<double>(bins_) * ticks_per_bin_ / facts.rate_Hz;
-  min_gap_s_ = std::max(0.004, axis_.seconds / 4096);
+  min_gap_s_ = std::max(0.004, static_cast<double>(bins_) * ticks_per_bin_ / facts.rate_Hz / 4096);
   for (RunChart& chart : charts_)
     for (Curve& curve : chart.curves) curve.values = {bins_, ticks_per_bin_ == 1};
 }
@@ -170,6 +169,10 @@ void RunCharts::add_faults(uint32_t faults, double time_s) {
 }
 
 void RunCharts::finish(const Summary& summary) {
+  bins_ = 1 + (facts_.ticks - 1) / ticks_per_bin_;
+  axis_.seconds = static_cast<double>(bins_) * ticks_per_bin_ / facts_.rate_Hz;
+  for (RunChart& chart : charts_)
+    for (Curve& curve : chart.curves) curve.values.shorten(bins_);
   if (summary.worst_instructions == 0) charts_.pop_back();
   charts_.front().note = "Force at the tool after all limits; the force limit is " +
                          fixed(summary.force_limit_N, 1) +

@@ -39,13 +39,14 @@ struct RunChart {
 class RunCharts {
  public:
   /// At 1 kHz 16 s have a bin for each tick; a longer run keeps the least and greatest of each bin.
+  /// Homing may lengthen a run, so its bins are those of the longest.
   static constexpr size_t kMaxBins = 16384;
 
   /// `linkage`: null for a Cartesian device. It and `facts` outlive this.
   RunCharts(const Environment& environment, const RunFacts& facts,
             const tools::LinkageDevice* linkage = nullptr);
   void add(const RunTick& tick);
-  /// After the last tick: notes and limits.
+  /// After the last tick: length, notes and limits.
   void finish(const Summary& summary);
 
   size_t bins() const { return bins_; }

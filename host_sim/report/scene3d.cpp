@@ -156,7 +156,7 @@ Colour part_colour(const Scene3d& scene3d, uint32_t triangle) {
 
 RunPaths::RunPaths(const Environment& environment, const Scenario& scenario, const RunFacts& facts)
     : facts_(facts),
-      stride_(1 + (facts.ticks - 1) / kMaxSamples),
+      stride_(1 + (facts.ticks + facts.spare_ticks - 1) / kMaxSamples),
       moving_(environment.meshes(),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       tool_(environment.tool(), static_cast<float>(parameter_value(scenario, params::kTickPeriod))),

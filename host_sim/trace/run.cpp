@@ -327,14 +327,15 @@ struct Simulation::Loop {
   double script_s = 0;
   JointMotion reach_from;
   double reach_left_s = 0;
-  uint32_t waited = 0, max_waited = 0;  // ticks
+  uint32_t waited = 0;  // ticks
 };
 
 Simulation::Simulation(const Scenario& scenario, Tick controller, const Environment& environment,
                        LockStepController* remote)
     : loop_(std::make_unique<Loop>(scenario, std::move(controller), environment, remote)) {
   facts_.ticks = tick_count(scenario, loop_->hand);
-  loop_->max_waited = static_cast<uint32_t>(kMaxWait_s * scenario.rate_Hz);
+  if (scenario.linkage && scenario.linkage->is_homed)
+    facts_.spare_ticks = static_cast<uint32_t>(kMaxWait_s * scenario.rate_Hz);
   facts_.rate_Hz = scenario.rate_Hz;
   facts_.setup_ticks =
       static_cast<uint32_t>(std::min<size_t>(setup_ticks(scenario), facts_.ticks - 1));
@@ -353,7 +354,7 @@ bool Simulation::next(RunTick& tick) {
   if (loop.tick > 0) {
     const uint32_t waited = loop.waited;
     loop.move(loop.tick - 1);
-    if (loop.waited <= loop.max_waited) facts_.ticks += loop.waited - waited;
+    if (loop.waited > waited && facts_.spare_ticks > 0) ++facts_.ticks, --facts_.spare_ticks;
   }
   record::TickRecord& record = tick.record;
   record = {};

@@ -33,7 +33,8 @@ struct RunTick {
 
 /// A run apart from its ticks.
 struct RunFacts {
-  uint32_t ticks = 0;  // planned; a difference ends the run before
+  uint32_t ticks = 0;        // planned; a difference ends the run before
+  uint32_t spare_ticks = 0;  // by which homing and reaching may yet lengthen it
   double rate_Hz = 1000;
   uint32_t setup_ticks = 0;  // at the begin: they set the parameters of the scenario
   std::string controller = "in-process";

@@ -72,6 +72,33 @@ TEST(Charts_LongRun_IsBoundedAndKeepsTheEvent) {
   CHECK_LT(4.9, paths.peak_N());
 }
 
+// Homing lengthens a run while it goes on: the charts hold all of it, and no more.
+TEST(Charts_RunLengthenedByHoming_HoldEveryTick) {
+  const host_sim::Environment environment;
+  for (const uint32_t spare_ticks : {10000u, 100000u}) {
+    RunFacts facts;
+    facts.ticks = 4000, facts.spare_ticks = spare_ticks;
+    RunCharts charts(environment, facts);
+    RunPaths paths(environment, {}, facts);
+    const uint32_t ticks = facts.ticks + facts.spare_ticks * 9 / 10;
+    for (uint32_t i = 0; i < ticks; ++i) {
+      if (i >= 100 && facts.ticks < ticks) ++facts.ticks, --facts.spare_ticks;
+      const RunTick tick = tick_of(i, ticks - 2, 2);
+      charts.add(tick);
+      paths.add(tick);
+    }
+    charts.finish({});
+    const Envelope& force = charts.charts().front().curves.back().values;
+    CHECK_LE(charts.bins(), RunCharts::kMaxBins);
+    CHECK_EQ(charts.bins(), (ticks - 1) / charts.ticks_per_bin() + 1);
+    CHECK_EQ(force.low().size(), charts.bins());
+    CHECK_LT(4.0, force.values().back());
+    CHECK_LE(paths.samples().size(), 6000u);
+    const double length_s = charts.axis().seconds - ticks / facts.rate_Hz;
+    CHECK(length_s >= 0 && length_s < charts.ticks_per_bin() / facts.rate_Hz);
+  }
+}
+
 // A contact that opens and closes at every other tick would make 300,000 spans.
 TEST(Charts_FlickeringContact_SpansAreBounded) {
   const host_sim::Environment environment;

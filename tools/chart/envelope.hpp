@@ -21,6 +21,11 @@ class Envelope {
     if (!(low_[bin] <= v)) low_[bin] = v;
     if (!high_.empty() && !(high_[bin] >= v)) high_[bin] = v;
   }
+  /// Pre: `bins` <= those that there are.
+  void shorten(size_t bins) {
+    low_.resize(bins);
+    if (!high_.empty()) high_.resize(bins);
+  }
   const std::vector<float>& low() const { return low_; }
   /// Empty if a bin has one sample.
   const std::vector<float>& high() const { return high_; }
