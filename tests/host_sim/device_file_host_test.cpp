@@ -88,9 +88,10 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
   check_refusal("", "begin with `linkage five_bar`");
   check_refusal("base 25 mm\n", "test.device:1: `linkage` is expected");
   check_refusal("\nlinkage hexapod\n", "test.device:2: `hexapod` is no linkage");
-  check_refusal("linkage serial_arm 4\n", "outside 2 to 3");
-  check_refusal(kFiveBar + "bse 1 mm\n", "test.device:17: unknown key `bse`; known are base");
-  check_refusal(kFiveBar + "counts_2 1 counts/rad\n", "unknown key `counts_2`");
+  check_refusal("linkage serial_arm 4\n", "test.device:1: a serial arm has 2 or 3 joints, not `4`");
+  check_refusal(kFiveBar + "bse 1 mm\n", "test.device:17: unknown key `bse`; did you mean `base`?");
+  check_refusal(kFiveBar + "counts_2 1 counts/rad\n",
+                "test.device:17: this linkage has no `counts_2`; it has `counts_0` to");
   check_refusal(kFiveBar + "base 25 mm\n", "`base` is given twice, first in line 3");
   check_refusal(kFiveBar + "tip up\n", "given twice");
   check_refusal(edited(kFiveBar, "tip left", "tip up"), "`tip` is left or right, not `up`");
@@ -99,12 +100,37 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
   check_refusal(edited(kFiveBar, "63 mm", "0 mm"), "test.device:4: `proximal_0` = 0 m is outside");
   check_refusal(edited(kFiveBar, "63 mm", "nan mm"), "needs a number instead of `nan`");
   check_refusal(edited(kFiveBar, "63 mm", "63 mm mm"), "unexpected `mm`");
-  check_refusal(edited(kFiveBar, "max_torque_1 0.2 N*m\n", ""), "`max_torque_1` is missing");
-  check_refusal(edited(kFiveBar, "base 25 mm", "base 2500 mm"), "the links meet at no angles");
-  check_refusal(edited(kFiveBar, "base 25 mm", "base -25 mm"), "offset");
-  check_refusal(edited(kFiveBar, "low_1 30", "low_1 130"), "low below high, within 100 rad (ele");
-  check_refusal(edited(kFiveBar, "0.2 N*m", "0 N*m"), "torque limit");
-  check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n", "fade");
+  check_refusal(edited(kFiveBar, "max_torque_1 0.2 N*m\n", ""),
+                "`max_torque_1` is missing; add a line `max_torque_1 VALUE N*m`");
+  check_refusal(edited(kFiveBar, "base 25 mm", "base 2500 mm"),
+                "test.device:2: `linkage` has links that meet at no angles");
+  check_refusal(edited(kFiveBar, "base 25 mm", "base -25 mm"),
+                "test.device:3: `base` needs to be 0 or above");
+  check_refusal(edited(kFiveBar, "low_1 30", "low_1 130"),
+                "test.device:15: `high_1` needs to be above `low_` of its joint");
+  check_refusal(edited(kFiveBar, "0.2 N*m", "0 N*m"),
+                "test.device:16: `max_torque_1` needs to be above 0");
+  check_refusal("linkage serial_arm 2.5\n", "has 2 or 3 joints, not `2.5`");
+  check_refusal(kFiveBar + "linkage five_bar\n", "`linkage` is given twice, first in line 2");
+  check_refusal(kFiveBar + "quux 1 mm\n", "`firmtouch-sim device --help` lists the known ones");
+  check_refusal(kFiveBar + "full_from 1.5\n",
+                "test.device:17: `full_from` = 1.5 is outside 0 to 1");
+  check_refusal(edited(kFiveBar, "2000 counts", "0 counts"),
+                "test.device:13: `counts_1` needs 1 to 1e7 counts/rad");
+  check_refusal(kFiveBar + "max_speed 0 deg/s\n",
+                "test.device:17: `max_speed` needs to be above 0");
+  check_refusal(kFiveBar + "home pose\n",
+                "test.device:17: `home_pose_0` needs to be from `low_0` to `high_0`; it is 0");
+  check_refusal(kFiveBar + "home stops\nhome_torque_1 0.25 N*m\n",
+                "test.device:18: `home_torque_1` needs to be at most `max_torque_1`");
+  check_refusal(kFiveBar + "home stops\nhome_speed 0 rad/s\n", "home_speed at most max_speed");
+  check_refusal(kFiveBar + "second_1 100 counts/rad\nsecond_within 1 deg\n",
+                "test.device:18: `second_within` needs 3 counts");
+  check_refusal(kFiveBar + "second_1 0 counts/rad\nsecond_within 1 deg\n",
+                "test.device:18: `second_within` needs a `second_` other than 0");
+  check_refusal(kFiveBar + "cable_0 10 N*m/rad\n", "test.device:17: `cable_0` on `rotor_0` would");
+  check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n",
+                "test.device:18: `gone_at` needs 0.001 <= gone_at < full_from");
 }
 
 TEST(Workspace_GoodRanges_AreFreeOfSingularities) {

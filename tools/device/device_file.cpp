@@ -7,11 +7,8 @@
 #include <map>
 #include <vector>
 
+#include "device/device_rules.hpp"
 #include "device/line_reader.hpp"
-#include "firmtouch/device/index_pulses.hpp"
-#include "firmtouch/device/rules.hpp"
-#include "firmtouch/device/second_encoders.hpp"
-#include "firmtouch/device/stored_homing.hpp"
 
 namespace firmtouch::tools {
 namespace {
@@ -176,8 +173,10 @@ void set_linkage(LinkageDevice& device, LineReader& words) {
     device.joints.joints = 2;
   } else if (kind == "serial_arm") {
     device::SerialArm arm;
-    arm.joints =
-        static_cast<uint32_t>(std::lround(words.more() ? words.quantity("joints", "", 2, 3) : 3));
+    const std::string joints = words.more() ? words.next("2 or 3") : "3";
+    if (joints != "2" && joints != "3")
+      words.refuse("a serial arm has 2 or 3 joints, not `" + joints + "`");
+    arm.joints = joints == "2" ? 2 : 3;
     device.linkage = arm;
     device.joints.joints = arm.joints;
   } else if (kind == "delta") {
@@ -187,12 +186,24 @@ void set_linkage(LinkageDevice& device, LineReader& words) {
   }
 }
 
-std::string names(const Keys& keys) {
-  std::string list;
-  for (const Key& key : keys.keys) list += (list.empty() ? "" : ", ") + key.name;
-  for (const Word& word : keys.words)
-    if (list.find(word.name) == std::string::npos) list += std::string(", ") + word.name;
-  return list;
+std::vector<std::string> names_of(const Keys& keys) {
+  std::vector<std::string> names;
+  for (const Key& key : keys.keys) names.push_back(key.name);
+  for (const Word& word : keys.words) names.emplace_back(word.name);
+  return names;
+}
+
+// A joint or a link that this linkage does not have, or a key that none has.
+void refuse_unknown(const Keys& keys, const std::string& name, const LineReader& words) {
+  const std::string stem = name.substr(0, name.size() - std::min<size_t>(name.size(), 1));
+  std::string last;
+  for (const Key& key : keys.keys)
+    if (key.name.size() == name.size() && key.name.compare(0, stem.size(), stem) == 0 &&
+        !stem.empty() && stem.back() == '_')
+      last = key.name;
+  if (!last.empty())
+    words.refuse("this linkage has no `" + name + "`; it has `" + stem + "0` to `" + last + "`");
+  words.refuse_unknown("key", name, "firmtouch-sim device --help");
 }
 
 void set(Keys& keys, const std::string& name, LineReader& words) {
@@ -201,7 +212,7 @@ void set(Keys& keys, const std::string& name, LineReader& words) {
   std::string choices;
   for (const Word& word : keys.words)
     if (word.name == name) choices += (choices.empty() ? "" : " or ") + std::string(word.value);
-  if (choices.empty()) words.refuse("unknown key `" + name + "`; known are " + names(keys));
+  if (choices.empty()) refuse_unknown(keys, name, words);
   const std::string value = words.next(choices);
   for (const Word& word : keys.words)
     if (word.name == name && word.value == value) return word.set();
@@ -219,121 +230,38 @@ void fill_rods(LinkageDevice& device) {
   }
 }
 
-void refuse_broken(const std::string& name, core::Verdict verdict) {
-  if (!verdict.ok())
-    throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
-                  std::to_string(verdict.element) + ")");
-}
-
-void check_rules(const std::string& name, const LinkageDevice& device) {
-  refuse_broken(name, std::visit([](const auto& l) { return device::check(l); }, device.linkage));
-  refuse_broken(name, device::check(device.joints));
-  refuse_broken(name, device::check(device.limits));
-  refuse_broken(name, device::check(load_of(device)));
-}
-
-// What is not given of homing, and words that its way does not use.
-void complete_homing(const std::string& name, LinkageDevice& device,
-                     const std::map<std::string, int>& given) {
-  constexpr float kTorqueShare = 0.3f;  // of the largest torque
-  const bool is_by_stops = device.homing.by == device::HomeBy::kStops;
-  for (const auto& [key, line] : given) {
-    const bool is_of_homing = key.rfind("home_", 0) == 0 && key != "home_margin";
-    const bool is_of_pose = key.rfind("home_pose", 0) == 0;
-    if (!device.is_homed && (is_of_homing || key == "home_margin"))
-      throw Refused(name + ":" + std::to_string(line) + ": `" + key +
-                    "` needs `home stops` or `home pose`");
-    if (is_of_homing && is_of_pose == is_by_stops)
-      throw Refused(name + ":" + std::to_string(line) + ": `" + key + "` is of `home " +
-                    (is_of_pose ? "pose`" : "stops`"));
-  }
-  if (!device.is_homed) return;
-  for (uint32_t k = 0; k < device.joints.joints && is_by_stops; ++k)
-    if (given.count("home_torque_" + std::to_string(k)) == 0)
-      device.homing.torque_Nm[k] = kTorqueShare * device.limits.max_torque_Nm[k];
-  if (!is_by_stops) device.homing.speed_rad_per_s = 0;
-}
-
-// Index pulses need homing by stops and leave no room for second encoders in a tick's input.
-void check_index_pulses(const std::string& name, const LinkageDevice& device,
-                        const std::map<std::string, int>& given) {
-  for (const auto& [key, line] : given) {
-    if (key.rfind("index_", 0) != 0) continue;
-    const std::string at = name + ":" + std::to_string(line) + ": `" + key + "` needs ";
-    if (!device.is_homed || device.homing.by != device::HomeBy::kStops)
-      throw Refused(at + "`home stops`");
-    if (device.has_second_encoders)
-      throw Refused(at + "a device without `second_0`; one of both is compared in a tick");
-    for (uint32_t k = 0; k < device.joints.joints; ++k)
-      for (const char* const other : {"index", "index_period"})
-        if (given.count(of(other, static_cast<int>(k))) == 0)
-          throw Refused(at + "`" + of(other, static_cast<int>(k)) + "`, too");
-    if (given.count("index_within") == 0) throw Refused(at + "`index_within`, too");
-  }
-}
-
-// A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
-void check_cables(const std::string& name, const LinkageDevice& device) {
-  constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
-  for (uint32_t k = 0; k < device.joints.joints; ++k) {
-    const JointFriction& joint = device.masses.joint[k];
-    const std::string end = "_" + std::to_string(k);
-    if (joint.cable_N_m_per_rad > kMaxRate2 * joint.rotor_kg_m2)
-      throw Refused(name + ": `cable" + end + "` on `rotor" + end +
-                    "` would ring at more than 1.6 kHz; leave the cable out, as it is rigid, or "
-                    "give the rotor's inertia");
-    if (joint.backlash_rad > 0 && !(joint.cable_N_m_per_rad > 0))
-      throw Refused(name + ": `backlash" + end + "` needs `cable" + end + "`");
-  }
-}
-
 }  // namespace
-
-core::Verdict check_stored(core::Bytes section) {
-  device::StoredLinkage linkage;
-  device::StoredHoming homing;
-  device::IndexPulses index;
-  device::SecondEncoders second;
-  const core::Bytes homed = device::before_index_pulses(section);
-  core::Verdict verdict = open(device::before_second_encoders(homed), linkage, homing);
-  if (verdict.ok() && homing.is_open()) verdict = open(section, linkage, homing, index);
-  return verdict.ok() ? open(section, linkage, second) : verdict;
-}
 
 LinkageDevice read_device(const std::string& name, const std::string& text) {
   LinkageDevice device;
   Keys keys;
-  std::map<std::string, int> given;  // and the line
-  read_lines(name, text, [&](LineReader& words, int number) {
-    if (keys.keys.empty()) {
-      set_linkage(device, words);
-      keys = keys_of(device);
-    } else {
-      const std::string key = words.next("a key");
-      const auto first = given.emplace(key, number);
-      if (!first.second)
-        words.refuse("`" + key + "` is given twice, first in line " +
-                     std::to_string(first.first->second));
-      set(keys, key, words);
-    }
-    words.end();
-  });
+  std::vector<std::string> known;  // once the linkage is
+  GivenKeys given;
+  read_lines(
+      name, text,
+      [&](LineReader& words, int number) {
+        const std::string key = keys.keys.empty() ? "linkage" : words.next("a key");
+        const auto first = given.emplace(key, number);
+        if (!first.second)
+          words.refuse("`" + key + "` is given twice, first in line " +
+                       std::to_string(first.first->second));
+        if (keys.keys.empty()) {
+          set_linkage(device, words);
+          keys = keys_of(device);
+          known = names_of(keys);
+        } else {
+          set(keys, key, words);
+        }
+        words.end();
+      },
+      known);
   if (keys.keys.empty()) throw Refused(name + ": it has no line; begin with `linkage five_bar`");
   for (const Key& key : keys.keys)
     if (key.must_be_given && given.count(key.name) == 0)
-      throw Refused(name + ": `" + key.name + "` is missing");
+      throw Refused(name + ": `" + key.name + "` is missing; add a line `" + key.name + " VALUE " +
+                    key.unit + "`");
   fill_rods(device);
-  check_rules(name, device);
-  complete_homing(name, device, given);
-  check_index_pulses(name, device, given);
-  if (!device.has_second_encoders && given.count("second_within") != 0)
-    throw Refused(name + ":" + std::to_string(given["second_within"]) +
-                  ": `second_within` needs `second_0`, the counts of a joint's second encoder");
-  if (device.is_homed || device.has_second_encoders) {
-    const std::vector<uint8_t> stored = stored_bytes_of(device);
-    refuse_broken(name, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));
-  }
-  check_cables(name, device);
+  complete_and_check(name, given, device);
   return device;
 }
 

@@ -108,7 +108,8 @@ LineReader::LineReader(const std::string& line, std::string place,
 
 void LineReader::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
 
-void LineReader::refuse_unknown(const std::string& kind, const std::string& name) const {
+void LineReader::refuse_unknown(const std::string& kind, const std::string& name,
+                                const std::string& help) const {
   std::string nearest, containing;
   size_t fewest = name.size() / 3 + 2;
   for (const std::string& known : names_) {
@@ -120,7 +121,7 @@ void LineReader::refuse_unknown(const std::string& kind, const std::string& name
   }
   if (nearest.empty()) nearest = containing;
   refuse("unknown " + kind + " `" + name + "`" +
-         (nearest.empty() ? "; `firmtouch-sim run --help` lists the known ones"
+         (nearest.empty() ? "; `" + help + "` lists the known ones"
                           : "; did you mean " + nearest + "?"));
 }
 
@@ -178,9 +179,10 @@ double LineReader::in_si(const std::string& name, double value, const std::strin
 
 double LineReader::ranged(const std::string& name, double value, const std::string& unit,
                           double low, double high) const {
+  const std::string in_unit = unit.empty() ? "" : " " + unit;
   if (!(value >= low && value <= high))
-    refuse("`" + name + "` = " + short_number(value) + " " + unit + " is outside " +
-           short_number(low) + " to " + short_number(high) + " " + unit);
+    refuse("`" + name + "` = " + short_number(value) + in_unit + " is outside " +
+           short_number(low) + " to " + short_number(high) + in_unit);
   return value;
 }
 

@@ -35,7 +35,9 @@ class LineReader {
   void end();
 
   [[noreturn]] void refuse(const std::string& what) const;
-  [[noreturn]] void refuse_unknown(const std::string& kind, const std::string& name) const;
+  /// `help`: the command that lists the known ones.
+  [[noreturn]] void refuse_unknown(const std::string& kind, const std::string& name,
+                                   const std::string& help = "firmtouch-sim run --help") const;
 
  private:
   double number(const std::string& name);

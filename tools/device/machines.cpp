@@ -224,7 +224,8 @@ std::string read_device_text(const std::string& name) {
   if (!text.empty()) return text;
   std::ifstream file(name, std::ios::binary);
   std::ostringstream read;
-  if (!file || !(read << file.rdbuf())) {
+  if (file && file.peek() != std::ifstream::traits_type::eof()) read << file.rdbuf();
+  if (!file.is_open() || file.bad()) {  // a folder is bad
     std::string names;
     for (const std::string& known : machine_names()) names += (names.empty() ? "" : ", ") + known;
     throw Refused(name + ": it cannot be read, and is no machine; machines are " + names);

@@ -1,0 +1,166 @@
+#include "device/device_rules.hpp"
+
+#include <vector>
+
+#include "firmtouch/device/index_pulses.hpp"
+#include "firmtouch/device/rules.hpp"
+#include "firmtouch/device/second_encoders.hpp"
+#include "firmtouch/device/stored_homing.hpp"
+
+namespace firmtouch::tools {
+namespace {
+
+// Which key breaks a rule, and what it needs. `element`: of the first of three joints, or any.
+// A key that ends in _ is that of the joint.
+constexpr uint32_t kAny = ~uint32_t{0};
+struct Cause {
+  device::Rule rule;
+  uint32_t element;
+  const char *key, *needs;
+};
+constexpr Cause kCauses[] = {
+    {device::kRuleCountsPerRad, 0, "counts_", "needs 1 to 1e7 counts/rad, with either sign"},
+    {device::kRuleAngleRange, 0, "high_", "needs to be above `low_` of its joint"},
+    {device::kRuleMaxSpeed, kAny, "max_speed", "needs to be above 0"},
+    {device::kRuleOffset, kAny, "base", "needs to be 0 or above: the second shaft is at +x"},
+    {device::kRuleNeverCloses, kAny, "linkage",
+     "has links that meet at no angles; check the lengths and their units"},
+    {device::kRuleMaxTorque, 0, "max_torque_", "needs to be above 0"},
+    {device::kRuleFade, kAny, "gone_at",
+     "needs 0.001 <= gone_at < full_from <= 1; 0.1 and 0.05 if not given"},
+    {device::kRuleHoming, 5, "home",
+     "needs each home_torque_, home_margin and home_speed above 0, and home_speed at most "
+     "max_speed"},
+    {device::kRuleSecondEncoder, 0, "second_", "needs 1 to 1e4 counts/rad, with either sign"},
+    {device::kRuleSecondEncoder, 3, "second_within",
+     "needs 3 counts of each second encoder and one of the first, and at most 60"},
+    {device::kRuleSecondEncoder, 6, "second_within", "needs a `second_` other than 0"},
+    {device::kRuleIndex, 1, "index_period_", "needs 240 counts of its joint, or more"},
+    {device::kRuleIndex, 4, "index_within", "needs 3 to 60 counts of each joint"},
+    {device::kRuleIndex, 7, "index_period_0",
+     "and those of the other joints need home_margin or more, and less than the joint's range"}};
+
+std::string place(const std::string& name, int line) { return name + ":" + std::to_string(line); }
+
+// In the line of the key, or of the one that stands for it where it is not given.
+[[noreturn]] void refuse(const std::string& name, const GivenKeys& given, const std::string& key,
+                         const std::string& needs, const std::string& instead = "linkage") {
+  const auto line = given.find(key);
+  throw Refused(place(name, line != given.end() ? line->second : given.at(instead)) + ": `" + key +
+                "` " + needs);
+}
+
+void refuse_broken(const std::string& name, const GivenKeys& given, core::Verdict verdict) {
+  if (verdict.ok()) return;
+  const Cause* cause = nullptr;
+  for (const Cause& each : kCauses)
+    if (each.rule == verdict.rule && (each.element == kAny || each.element <= verdict.element))
+      cause = &each;
+  if (cause == nullptr)
+    throw Refused(name + ": " + device::rule_name(verdict.rule) + " (element " +
+                  std::to_string(verdict.element) + ")");
+  std::string key = cause->key;
+  if (key.back() == '_') key += std::to_string(verdict.element - cause->element);
+  refuse(name, given, key, cause->needs);
+}
+
+void check_rules(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
+  refuse_broken(name, given,
+                std::visit([](const auto& l) { return device::check(l); }, device.linkage));
+  refuse_broken(name, given, device::check(device.joints));
+  refuse_broken(name, given, device::check(device.limits));
+  refuse_broken(name, given, device::check(load_of(device)));
+}
+
+// What is not given of homing, and words that its way does not use.
+void complete_homing(const std::string& name, const GivenKeys& given, LinkageDevice& device) {
+  constexpr float kTorqueShare = 0.3f;  // of the largest torque
+  const bool is_by_stops = device.homing.by == device::HomeBy::kStops;
+  for (const auto& [key, line] : given) {
+    const bool is_of_homing = key.rfind("home_", 0) == 0 && key != "home_margin";
+    const bool is_of_pose = key.rfind("home_pose", 0) == 0;
+    if (!device.is_homed && (is_of_homing || key == "home_margin"))
+      throw Refused(place(name, line) + ": `" + key + "` needs `home stops` or `home pose`");
+    if (is_of_homing && is_of_pose == is_by_stops)
+      throw Refused(place(name, line) + ": `" + key + "` is of `home " +
+                    (is_of_pose ? "pose`" : "stops`"));
+  }
+  if (!device.is_homed) return;
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const std::string end = "_" + std::to_string(k);
+    const device::JointSetting& joint = device.joints.joint[k];
+    const float max_Nm = device.limits.max_torque_Nm[k], pose_rad = device.homing.pose_rad[k];
+    if (is_by_stops && given.count("home_torque" + end) == 0)
+      device.homing.torque_Nm[k] = kTorqueShare * max_Nm;
+    if (is_by_stops && !(device.homing.torque_Nm[k] <= max_Nm))
+      refuse(name, given, "home_torque" + end, "needs to be at most `max_torque" + end + "`");
+    if (!is_by_stops && !(pose_rad >= joint.low_rad && pose_rad <= joint.high_rad))
+      refuse(name, given, "home_pose" + end,
+             "needs to be from `low" + end + "` to `high" + end + "`; it is 0 if not given",
+             "home");
+  }
+  if (!is_by_stops) device.homing.speed_rad_per_s = 0;
+}
+
+// Index pulses need homing by stops and leave no room for second encoders in a tick's input.
+void check_index_pulses(const std::string& name, const GivenKeys& given,
+                        const LinkageDevice& device) {
+  for (const auto& [key, line] : given) {
+    if (key.rfind("index_", 0) != 0) continue;
+    const std::string at = place(name, line) + ": `" + key + "` needs ";
+    if (!device.is_homed || device.homing.by != device::HomeBy::kStops)
+      throw Refused(at + "`home stops`");
+    if (device.has_second_encoders)
+      throw Refused(at + "a device without `second_0`; one of both is compared in a tick");
+    for (uint32_t k = 0; k < device.joints.joints; ++k)
+      for (const char* const other : {"index", "index_period"})
+        if (given.count(other + ("_" + std::to_string(k))) == 0)
+          throw Refused(at + "`" + other + ("_" + std::to_string(k)) + "`, too");
+    if (given.count("index_within") == 0) throw Refused(at + "`index_within`, too");
+  }
+}
+
+// A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
+void check_cables(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
+  constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const JointFriction& joint = device.masses.joint[k];
+    const std::string end = "_" + std::to_string(k);
+    if (joint.cable_N_m_per_rad > kMaxRate2 * joint.rotor_kg_m2)
+      refuse(name, given, "cable" + end,
+             "on `rotor" + end +
+                 "` would ring at more than 1.6 kHz; leave the cable out, as it is rigid, or give "
+                 "the rotor's inertia");
+    if (joint.backlash_rad > 0 && !(joint.cable_N_m_per_rad > 0))
+      refuse(name, given, "backlash" + end, "needs `cable" + end + "`");
+  }
+}
+
+}  // namespace
+
+core::Verdict check_stored(core::Bytes section) {
+  device::StoredLinkage linkage;
+  device::StoredHoming homing;
+  device::IndexPulses index;
+  device::SecondEncoders second;
+  const core::Bytes homed = device::before_index_pulses(section);
+  core::Verdict verdict = open(device::before_second_encoders(homed), linkage, homing);
+  if (verdict.ok() && homing.is_open()) verdict = open(section, linkage, homing, index);
+  return verdict.ok() ? open(section, linkage, second) : verdict;
+}
+
+void complete_and_check(const std::string& name, const GivenKeys& given, LinkageDevice& device) {
+  check_rules(name, given, device);
+  complete_homing(name, given, device);
+  check_index_pulses(name, given, device);
+  if (!device.has_second_encoders && given.count("second_within") != 0)
+    refuse(name, given, "second_within",
+           "needs `second_0`, the counts of a joint's second encoder");
+  if (device.is_homed || device.has_second_encoders) {
+    const std::vector<uint8_t> stored = stored_bytes_of(device);
+    refuse_broken(name, given, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));
+  }
+  check_cables(name, given, device);
+}
+
+}  // namespace firmtouch::tools
