@@ -21,22 +21,31 @@ double percent(uint32_t part, const Workspace& of) { return 100.0 * part / of.po
 
 constexpr uint32_t kCheckedPoses = 1000000;
 
+const char* verdict(double error, double goal) { return error <= goal ? "" : "  NOT MET"; }
+
 void print_check(const FirmwareCheck& check) {
   std::printf("poses of the check against the simulation  %u\n", check.poses);
-  std::printf("inverse of forward kinematics              within %.2g m (goal %.2g)\n",
-              check.inverse_m, kMaxInverse_m);
-  std::printf("Jacobian against differences               within %.2g (goal %.2g)\n",
-              check.jacobian, kMaxJacobianError);
-  std::printf("force at the tip, counts to torques        within %.2g %% (goal %.2g)\n",
-              check.force * 100, kMaxForceError * 100);
-  std::printf("weight carried, largest torque %.3g N m   within %.2g %% (goal %.2g)\n",
-              check.heaviest_Nm, check.weight * 100, kMaxWeightError * 100);
+  std::printf("inverse of forward kinematics              within %.2g m (goal %.2g)%s\n",
+              check.inverse_m, kMaxInverse_m, verdict(check.inverse_m, kMaxInverse_m));
+  std::printf("Jacobian against differences               within %.2g (goal %.2g)%s\n",
+              check.jacobian, kMaxJacobianError, verdict(check.jacobian, kMaxJacobianError));
+  std::printf("force at the tip, counts to torques        within %.2g %% (goal %.2g)%s\n",
+              check.force * 100, kMaxForceError * 100, verdict(check.force, kMaxForceError));
+  if (check.force > kMaxForceError)
+    std::printf(
+        "    a count turns the force so far: encoders with more counts, or full_from above "
+        "%.2g, mend it\n",
+        check.force_condition);
+  std::printf("weight carried, largest torque %.3g N m   within %.2g %% (goal %.2g)%s\n",
+              check.heaviest_Nm, check.weight * 100, kMaxWeightError * 100,
+              verdict(check.weight, kMaxWeightError));
 }
 
 void print_row(const char* what, const char* unit, double scale, const Predicted& it, double goal) {
   if (!(it.closed_form > 0)) return;
-  std::printf("%-43s%.5g %s, closed form %.5g, off %.2g %% (goal %.2g)\n", what,
-              it.measured * scale, unit, it.closed_form * scale, it.error() * 100, goal * 100);
+  std::printf("%-43s%.5g %s, closed form %.5g, off %.2g %% (goal %.2g)%s\n", what,
+              it.measured * scale, unit, it.closed_form * scale, it.error() * 100, goal * 100,
+              verdict(it.error(), goal));
 }
 
 void print_transmission(const TransmissionCheck& check) {
@@ -153,9 +162,20 @@ int print_device(const cli::Arguments& options) {
 cli::Command device_command() {
   const std::string details =
       "FILE begins with `linkage five_bar`, `linkage serial_arm [2|3]` or `linkage delta`; then "
-      "lines KEY VALUE UNIT.\nLengths: as in firmware/firmtouch/device. Fade by the reciprocal "
-      "condition: full_from, gone_at.\nAll keys:\n" +
-      tools::device_file_help() + machines() +
+      "lines KEY VALUE UNIT.\n# begins a comment. Frames, angles and lengths: "
+      "firmware/firmtouch/device/five_bar.hpp, serial_arm.hpp, delta.hpp.\nKeys, with *: must be "
+      "given; in brackets: the value if not given. Further joints and links: _1, _2 as _0.\n"
+      "Other units: mm cm um in, deg, deg/s, counts/turn, g, g*cm2, mN*m, mN*m*s/rad, ms.\n" +
+      tools::device_file_help() +
+      "zero_0: angle at a count of 0. low_0, high_0: range. walls forced: walls stiffer than "
+      "stable are enabled.\nfull_from, gone_at: reciprocal condition from which the force is "
+      "whole, and at which it is gone.\ntorque_rise: least time from 0 to max_torque_0. "
+      "carried_share: of max_torque_0, for the weight.\nmax_speed: a faster step of an encoder is "
+      "rejected. home_torque_0: 0.3 of max_torque_0 if not given.\nhome_margin: by which the "
+      "travel may miss the range. index_0: angle of an index pulse.\nsecond_within: by which a "
+      "joint's two encoders may differ. cable_0: 0 is rigid.\nCentre and inertia of a link are "
+      "those of an even rod if not given.\n" +
+      machines() +
       "Exit code 1: a pose of the ranges is not reachable, singular, beyond the fade, or without "
       "inertia; or a figure misses its goal.\n";
   return {{"device", "FILE|MACHINE [options]", 1, 1, print_device},

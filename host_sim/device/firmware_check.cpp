@@ -111,14 +111,18 @@ FirmwareCheck check_firmware(const LinkageDevice& device, uint32_t poses) {
     const JointMotion at = angles.next();
     float angle_rad[kJoints];
     narrow(at, angle_rad);
-    if (!(pose_of(linkage, angle_rad).reciprocal_condition >= layout.full_from)) continue;
+    const float condition = pose_of(linkage, angle_rad).reciprocal_condition;
+    if (!(condition >= layout.full_from)) continue;
     ++check.poses;
     const LinkageBody body(device, at);
     const Vec force_N{2 * angles.share() - 1, 2 * angles.share() - 1,
                       layout.joints == 2 ? 0 : 2 * angles.share() - 1};
     check.inverse_m = std::max(check.inverse_m, inverse_error_m(device, linkage, at));
     check.jacobian = std::max(check.jacobian, jacobian_error(device, linkage, at));
-    check.force = std::max(check.force, force_error(linkage, body, force_N));
+    const double force = force_error(linkage, body, force_N);
+    check.force = std::max(check.force, force);
+    if (force > kMaxForceError)
+      check.force_condition = std::max(check.force_condition, wide(condition));
     worst_Nm = std::max(worst_Nm, weight_error_Nm(linkage, body, check.heaviest_Nm));
   }
   if (check.heaviest_Nm > 0) check.weight = worst_Nm / check.heaviest_Nm;

@@ -11,6 +11,8 @@ struct FirmwareCheck {
   double inverse_m = 0;  // largest error of the tip at the angles that put it there in double
   double jacobian = 0;   // off central differences in double, over its norm
   double force = 0;      // of the force at the tip, relative, from counts to torques
+  // Largest reciprocal condition at which it misses its goal; 0: nowhere.
+  double force_condition = 0;
   // Of the weight's torques that the firmware carries, over the largest; 0 without weight.
   double weight = 0;
   double heaviest_Nm = 0;

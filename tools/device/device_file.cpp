@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <map>
+#include <sstream>
 #include <vector>
 
 #include "device/device_rules.hpp"
@@ -20,11 +20,13 @@ struct Key {
   const char* unit;
   double low, high;
   bool must_be_given;
+  double initial;  // in SI; NaN: none
   std::function<void(double)> set;
 };
 
 struct Word {
   const char *name, *value;
+  bool is_initial;
   std::function<void()> set;
 };
 
@@ -35,7 +37,7 @@ struct Keys {
   template <class T>
   void number(const std::string& name, const char* unit, double low, double high, T& value,
               bool must_be_given = true) {
-    keys.push_back({name, unit, low, high, must_be_given,
+    keys.push_back({name, unit, low, high, must_be_given, static_cast<double>(value),
                     [&value](double si) { value = static_cast<T>(si); }});
   }
   void rod(const std::string& link, const std::string& end, Rod& rod) {
@@ -44,13 +46,18 @@ struct Keys {
     number(link + "_centre" + end, "m", -10, 10, rod.centre_m, false);
     number(link + "_inertia" + end, "kg*m2", 0, 100, rod.inertia_kg_m2, false);
   }
+  // Given together with others.
+  void part(const std::string& name, const char* unit, double high, float& value) {
+    number(name, unit, 0, high, value, false);
+    keys.back().initial = kNotGiven;
+  }
   void length(const std::string& name, float& value_m) { number(name, "m", 1e-3, 10, value_m); }
   void offset(const std::string& name, float& value_m) {
     number(name, "m", -10, 10, value_m, false);
   }
   void flag(const char* name, const char* yes, const char* no, bool& value) {
-    words.push_back({name, yes, [&value] { value = true; }});
-    words.push_back({name, no, [&value] { value = false; }});
+    words.push_back({name, yes, value, [&value] { value = true; }});
+    words.push_back({name, no, !value, [&value] { value = false; }});
   }
 };
 
@@ -85,45 +92,53 @@ void add_keys(device::Delta& delta, Keys& to) {
 
 void add_second_encoders(LinkageDevice& device, Keys& to) {
   for (int k = 0; k < static_cast<int>(device.joints.joints); ++k)
-    to.keys.push_back({of("second", k), "counts/rad", -1e4, 1e4, false, [&device, k](double si) {
-                         device.second_counts_per_rad[k] = static_cast<float>(si);
-                         device.has_second_encoders = true;
-                       }});
-  to.number("second_within", "rad", 0, 100, device.second_within_rad, false);
+    to.keys.push_back(
+        {of("second", k), "counts/rad", -1e4, 1e4, false, kNotGiven, [&device, k](double si) {
+           device.second_counts_per_rad[k] = static_cast<float>(si);
+           device.has_second_encoders = true;
+         }});
+  to.part("second_within", "rad", 100, device.second_within_rad);
 }
 
 void add_index_pulses(LinkageDevice& device, Keys& to) {
   for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
-    to.keys.push_back({of("index", k), "rad", -100, 100, false, [&device, k](double si) {
+    to.keys.push_back({of("index", k), "rad", -100, 100, false, kNotGiven, [&device, k](double si) {
                          device.homing.index_rad[k] = static_cast<float>(si);
                          device.has_index_pulses = true;
                        }});
-    to.number(of("index_period", k), "rad", 0, 100, device.homing.index_period_rad[k], false);
+    to.part(of("index_period", k), "rad", 100, device.homing.index_period_rad[k]);
   }
-  to.number("index_within", "rad", 0, 100, device.homing.index_within_rad, false);
+  to.part("index_within", "rad", 100, device.homing.index_within_rad);
 }
 
 void add_homing(LinkageDevice& device, Keys& to) {
   for (const char* by : {"stops", "pose"})
-    to.words.push_back({"home", by, [&device, by] {
+    to.words.push_back({"home", by, false, [&device, by] {
                           device.is_homed = true;
                           device.homing.by = by == std::string("stops")
                                                  ? device::HomeBy::kStops
                                                  : device::HomeBy::kKnownPose;
                         }});
   for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
-    to.number(of("home_torque", k), "N*m", 0, 1000, device.homing.torque_Nm[k], false);
+    to.part(of("home_torque", k), "N*m", 1000, device.homing.torque_Nm[k]);
     to.number(of("home_pose", k), "rad", -100, 100, device.homing.pose_rad[k], false);
   }
   to.number("home_speed", "rad/s", 0, 1e4, device.homing.speed_rad_per_s, false);
   to.number("home_margin", "rad", 0, 100, device.homing.margin_rad, false);
 }
 
-void add_masses(LinkageDevice& device, Keys& to) {
-  MassModel& masses = device.masses;
+// What this kind of linkage has.
+Keys own_keys(LinkageDevice& device) {
+  Keys to;
+  std::visit([&](auto& linkage) { add_keys(linkage, to); }, device.linkage);
   const std::vector<Link> links = links_of(device);
   for (size_t i = 0; i < links.size(); ++i)
-    to.rod(links[i].name, "_" + std::to_string(links[i].number), masses.rod[i]);
+    to.rod(links[i].name, "_" + std::to_string(links[i].number), device.masses.rod[i]);
+  return to;
+}
+
+void add_masses(LinkageDevice& device, Keys& to) {
+  MassModel& masses = device.masses;
   to.number("tip_mass", "kg", 0, 100, masses.tip_mass_kg, false);
   for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
     JointFriction& joint = masses.joint[k];
@@ -141,9 +156,8 @@ void add_masses(LinkageDevice& device, Keys& to) {
   to.number("stop_damping", "N*m*s/rad", 0, 100, masses.stop_N_m_s, false);
 }
 
-Keys keys_of(LinkageDevice& device) {
-  Keys to;
-  std::visit([&](auto& linkage) { add_keys(linkage, to); }, device.linkage);
+// What every linkage has.
+void add_common(LinkageDevice& device, Keys& to) {
   for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
     device::JointSetting& joint = device.joints.joint[k];
     to.number(of("counts", k), "counts/rad", -1e7, 1e7, joint.counts_per_rad);
@@ -162,6 +176,11 @@ Keys keys_of(LinkageDevice& device) {
   add_second_encoders(device, to);
   to.flag("walls", "forced", "stable", device.are_walls_forced);
   add_masses(device, to);
+}
+
+Keys keys_of(LinkageDevice& device) {
+  Keys to = own_keys(device);
+  add_common(device, to);
   return to;
 }
 
@@ -265,24 +284,62 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
   return device;
 }
 
+namespace {
+
+// Words of a list, at most 100 columns a line.
+class KeyList {
+ public:
+  void add(const std::string& word) {
+    if (line_.size() + word.size() + 2 > 100) text_ += line_ + ",\n", line_.clear();
+    line_ += (line_.empty() ? "    " : ", ") + word;
+  }
+  std::string text() const { return text_ + line_ + "\n"; }
+
+ private:
+  std::string text_, line_;
+};
+
+bool is_of_a_further_one(const std::string& name) {
+  const size_t end = name.size() - 1;
+  return name[end - 1] == '_' && (name[end] == '1' || name[end] == '2');
+}
+
+// `counts_0 counts/rad *`, `gone_at (0.05)`, `tip left|right (left)`.
+std::string described(const Keys& keys) {
+  KeyList list;
+  for (const Key& key : keys.keys) {
+    if (is_of_a_further_one(key.name)) continue;
+    std::ostringstream text;
+    text << key.name << (*key.unit != 0 ? " " : "") << key.unit;
+    if (key.must_be_given)
+      text << " *";
+    else if (!std::isnan(key.initial))
+      text << " (" << static_cast<float>(key.initial) << ")";
+    list.add(text.str());
+  }
+  for (size_t i = 0; i + 1 < keys.words.size(); i += 2) {  // of each two values
+    const Word &one = keys.words[i], &other = keys.words[i + 1];
+    const std::string initial = one.is_initial ? one.value : other.is_initial ? other.value : "";
+    list.add(std::string(one.name) + " " + one.value + "|" + other.value +
+             (initial.empty() ? "" : " (" + initial + ")"));
+  }
+  return list.text();
+}
+
+}  // namespace
+
 std::string device_file_help() {
   std::string text;
+  LinkageDevice device;
   for (const char* kind : {"five_bar", "serial_arm 3", "delta"}) {
-    LinkageDevice device;
+    device = {};
     LineReader words(std::string("linkage ") + kind, "", {}, false);
     set_linkage(device, words);
-    std::string line = std::string("  linkage ") + kind + ":";
-    text += line + "\n";
-    line = "   ";
-    for (const Key& key : keys_of(device).keys) {
-      const std::string word =
-          " " + key.name + (*key.unit != 0 ? std::string(" ") + key.unit : "") + ",";
-      if (line.size() + word.size() > 100) text += line + "\n", line = "   ";
-      line += word;
-    }
-    text += line + "\n";
+    text += std::string("  linkage ") + kind + "\n" + described(own_keys(device));
   }
-  return text;
+  Keys common;
+  add_common(device, common);
+  return text + "  every linkage\n" + described(common);
 }
 
 }  // namespace firmtouch::tools

@@ -22,7 +22,7 @@ constexpr Cause kCauses[] = {
     {device::kRuleCountsPerRad, 0, "counts_", "needs 1 to 1e7 counts/rad, with either sign"},
     {device::kRuleAngleRange, 0, "high_", "needs to be above `low_` of its joint"},
     {device::kRuleMaxSpeed, kAny, "max_speed", "needs to be above 0"},
-    {device::kRuleOffset, kAny, "base", "needs to be 0 or above: the second shaft is at +x"},
+    {device::kRuleOffset, kAny, "base", "needs to be 0 or above: it is the distance of the motors"},
     {device::kRuleNeverCloses, kAny, "linkage",
      "has links that meet at no angles; check the lengths and their units"},
     {device::kRuleMaxTorque, 0, "max_torque_", "needs to be above 0"},
