@@ -121,17 +121,30 @@ FailureRig::FailureRig(const std::string& machine, uint32_t touch)
       touch_(touches(rig_.radius_m)[touch]),
       session_(std::make_unique<Session>(rig_.bake(touch_.solid))) {
   const Scenario scenario = rig_.scenario(touch_.start_m, touch_.script, touch_.settings);
-  ticks_ = Simulation(scenario, session_->tick(), {}).facts().ticks - kTicksAfter;
+  const Environment environment;
+  Simulation simulation(scenario, session_->tick(), environment);
+  ticks_ = simulation.facts().ticks - kTicksAfter;
+  if (!has_index()) return;
+  for (RunTick now; simulation.next(now);)
+    if (homed_tick_ == 0 && (now.record.output.state & record::kStateNotHomed) == 0)
+      homed_tick_ = now.record.input.tick;
+  first_tick_ = simulation.facts().ticks - kTicksAfter - ticks_;
 }
 
 FailureRig::~FailureRig() = default;
 
-FailureRun FailureRig::run(const Failure& failure, uint32_t tick) {
+FailureRun FailureRig::run(const Failure& failure, uint32_t of_touch) {
+  const uint32_t tick = first_tick_ + of_touch;
   Scenario scenario = rig_.scenario(touch_.start_m, touch_.script, touch_.settings);
   Event event;
-  event.kind = Event::Kind::kFail;
-  event.time_s = tick * kPeriod_s;
-  event.failure = failure;
+  // What the hand passes on its way from homing to the touch is no surface yet.
+  if (has_index()) {
+    event.kind = Event::Kind::kDisable, event.time_s = homed_tick_ * kPeriod_s;
+    scenario.events.push_back(event);
+    event.kind = Event::Kind::kEnable, event.time_s = first_tick_ * kPeriod_s;
+    scenario.events.push_back(event);
+  }
+  event.kind = Event::Kind::kFail, event.time_s = tick * kPeriod_s, event.failure = failure;
   scenario.events.push_back(event);
   session_->controller->reset();
   const Environment environment;

@@ -68,16 +68,16 @@ class FailureRig {
   const Touch& touch() const { return touch_; }
   uint32_t joints() const { return device_.joints.joints; }
   bool has_index() const { return device_.has_index_pulses; }
-  /// In which the machine may fail.
+  /// Of the touch, in which the machine may fail: behind a homing, if there is one.
   uint32_t ticks() const { return ticks_; }
-  FailureRun run(const Failure& failure, uint32_t tick);
+  FailureRun run(const Failure& failure, uint32_t of_touch);
 
  private:
   tools::LinkageDevice device_;
   Rig rig_;
   Touch touch_;
   std::unique_ptr<Session> session_;
-  uint32_t ticks_ = 0;
+  uint32_t ticks_ = 0, homed_tick_ = 0, first_tick_ = 0;
 };
 
 }  // namespace firmtouch::host_sim

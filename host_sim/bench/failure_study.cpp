@@ -115,6 +115,7 @@ void put(const std::string& machine, const Tallies& tallies, bench::Report& repo
   double given_share = 0;
   for (uint32_t i = 0; i < kFailureModes; ++i) {
     const Tally& t = tallies[i];
+    if (t.runs == 0) continue;
     given_share = std::max(given_share, t.worst.given_J / kStated_J[i]);
     const FailureRun& worst = t.worst;
     rows.push_back({failure_name(static_cast<FailureMode>(i)), std::to_string(t.runs),
@@ -156,7 +157,8 @@ void put(const std::string& machine, const Tallies& tallies, bench::Report& repo
 }  // namespace
 
 void study_failures(const std::vector<std::string>& machines, uint32_t every,
-                    const std::function<void(double)>& progress, bench::Report& report) {
+                    const std::string& only, const std::function<void(double)>& progress,
+                    bench::Report& report) {
   std::vector<Tallies> tallies(machines.size());
   std::vector<std::array<InHoming, kHomings>> homing(machines.size());
   std::mutex mutex;
@@ -166,7 +168,10 @@ void study_failures(const std::vector<std::string>& machines, uint32_t every,
       [&](uint64_t job) {
         const uint64_t machine = job / kJobs;
         const uint32_t mode = static_cast<uint32_t>(job % kJobs / kTouches);
-        if (mode >= kFailureModes) {
+        const bool is_in_homing = mode >= kFailureModes;
+        if (!only.empty() && (is_in_homing || only != failure_name(static_cast<FailureMode>(mode))))
+          return;
+        if (is_in_homing) {
           const uint64_t which = job % kJobs - kTouches * kFailureModes;
           homing[machine][which] = fail_in_homing(machines[machine], kInHoming[which], every);
           return;
@@ -184,7 +189,7 @@ void study_failures(const std::vector<std::string>& machines, uint32_t every,
       progress);
   for (size_t i = 0; i < machines.size(); ++i) {
     put(machines[i], tallies[i], report);
-    put(machines[i], homing[i], report);
+    if (only.empty()) put(machines[i], homing[i], report);
   }
 }
 

@@ -51,6 +51,7 @@ Rig::Rig(uint64_t its_seed, const std::string& machine) : seed(its_seed), machin
   if (!machine.empty()) {
     linkage_ = tools::read_device(machine, tools::read_device_text(machine));
     linkage_->are_walls_forced = true;  // the observer of energy is what a study tests
+    linkage_->is_homed = linkage_->has_index_pulses;
     JointMotion at;
     for (uint32_t k = 0; k < linkage_->joints.joints; ++k) {
       const device::JointSetting& joint = linkage_->joints.joint[k];

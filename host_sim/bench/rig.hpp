@@ -29,7 +29,7 @@ using Lines = std::vector<std::pair<std::string, std::string>>;
 /// other turns the world and draws radius, stiffness, grip and the solids' sizes.
 /// On a linkage the start is anywhere in the middle of its ranges, and the solids stand beside it,
 /// across the plane of a planar one. It has its own masses and encoders; motor_N are torques, and
-/// the controller counts on no friction.
+/// the controller counts on no friction. It homes only where index pulses need it.
 class Rig {
  public:
   /// `machine`: a linkage's name or file; empty: three straight axes. Throws Refused.
