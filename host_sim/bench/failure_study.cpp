@@ -124,6 +124,8 @@ void put(const std::string& machine, const Tallies& tallies, bench::Report& repo
                     text_of(worst.tip_mps), text_of(1e3 * worst.given_J), t.faults()});
     all.add(t);
   }
+  if (all.runs == 0)
+    throw Refused(machine + ": it cannot fail so; index_absent needs index pulses in its file");
   report.heading(machine);
   report.table(
       {"failure", "runs", "seen", "ticks to it", "to rest", "torque", "m/s", "mJ given", "faults"},

@@ -36,6 +36,7 @@ class Rig {
     finger_s_ = any_of(2) == 0 ? 10 : 0.7 * share();
     double heaviest_Nm[kJoints] = {};
     add_weight(0, {}, heaviest_Nm);
+    settings_.margin_rad = 100;
     for (uint32_t k = 0; k < joints(); ++k) {
       const device::JointSetting& joint = device_.joints.joint[k];
       const double range = wide(joint.high_rad) - wide(joint.low_rad);
@@ -43,7 +44,7 @@ class Rig {
           kTorqueShare * wide(device_.limits.max_torque_Nm[k]), kWeights * heaviest_Nm[k]));
       settings_.index_period_rad[k] = static_cast<float>(kIndexShare * range);
       settings_.index_rad[k] = static_cast<float>(wide(joint.low_rad) + range * share());
-      settings_.margin_rad = 0.5f * settings_.index_period_rad[0];
+      settings_.margin_rad = std::min(settings_.margin_rad, 0.5f * settings_.index_period_rad[k]);
       // Unsigned: wraps.
       base_[k] = any_of(2) == 0 ? any_of(0xffffffffu) : 0x80000000u + any_of(4000) - 2000u;
       before_rad_[k] = body_.motion().angle_rad[k];

@@ -46,3 +46,19 @@ TEST(Homing_EveryMachine_IsWithinACountOrFaults) {
   test::note("homed with a dead motor", homed_dead);
   CHECK_LE(homed_dead * 20, dead_motors);
 }
+
+// Ranges of 150 and 40 degrees: margin and index periods fit the smaller one.
+TEST(Homing_JointsOfUnequalRanges_AreHomed) {
+  const tools::LinkageDevice device = tools::read_device(
+      "arm",
+      "linkage serial_arm 2\nlink_0 120 mm\nlink_1 100 mm\nlow_0 -50 deg\nhigh_0 100 deg\n"
+      "low_1 90 deg\nhigh_1 130 deg\ncounts_0 5000 counts/rad\ncounts_1 5000 counts/rad\n"
+      "max_torque_0 1 N*m\nmax_torque_1 0.6 N*m\nlink_mass_0 100 g\nlink_mass_1 60 g\n"
+      "tip_mass 50 g\nrotor_0 1e-5 kg*m2\nrotor_1 1e-5 kg*m2\n");
+  host_sim::HomingTally good;
+  for (uint32_t run = 0; run < 40; ++run)
+    add(simulate_homing(device, HomingCase::kGood, run), good);
+  CHECK_EQ(good.wrong, 0u);
+  CHECK_EQ(good.faults[static_cast<uint32_t>(HomingFault::kSettings)], 0u);
+  CHECK_GE(good.homed, 32u);
+}
