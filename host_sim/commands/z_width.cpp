@@ -203,14 +203,18 @@ int print_device_walls(const cli::Arguments& options, SampledWall wall) {
       {"where the tip is lightest", space.lightest_at},
       {options.has("--at") ? "at the pose of --at" : "in the middle of the ranges",
        options.has("--at") ? pose_of(options, device.joints) : middle_of(device)}};
+  for (const DevicePose& pose : poses)
+    if (!(tools::tip_figures(device, pose.at).least_mass_kg > 0))
+      throw tools::Refused(path + ": the links do not meet " + pose.name +
+                           "; name angles where they do: --at");
   tools::Json all;
   for (const DevicePose& pose : poses) {
     const tools::TipFigures tip = tools::tip_figures(device, pose.at);
-    if (!(tip.least_mass_kg > 0)) options.refuse("the links do not meet " + std::string(pose.name));
     wall.mass_kg = tip.least_mass_kg;
     wall.viscous_N_s_per_m = tip.least_damping_N_s_per_m;
     std::vector<SampledWall> rows;
-    for (const double damping : {0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
+    for (const double damping : {0.0, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0}) {
+      if (!(damping + wall.viscous_N_s_per_m > 0)) continue;  // no wall is stable
       rows.push_back(wall);
       rows.back().damping_N_s_per_m = damping;
     }
@@ -235,7 +239,9 @@ int print_z_width(const cli::Arguments& options) {
   SampledWall wall;
   wall.mass_kg = options.number("--mass", wall.mass_kg, 0);
   wall.viscous_N_s_per_m = options.number("--viscous", wall.viscous_N_s_per_m, 0);
-  wall.period_s = 1 / options.number("--rate", 1000, 1);
+  const double rate_Hz = options.number("--rate", 1000, 50);
+  if (!(rate_Hz <= 1e5)) options.refuse("--rate takes 50 to 100000 Hz");
+  wall.period_s = 1 / rate_Hz;
   wall.damping_N_s_per_m = options.number("--damping", 0, 0);
   const double delay = options.number("--delay", 0, 0);
   if (std::floor(delay) < delay || delay > 8) options.refuse("--delay takes 0 to 8 whole samples");

@@ -200,7 +200,7 @@ BakedInput bake_device(const std::string& path) {
         tools::make_section(device::kLinkageSection, name, tools::stored_bytes_of(device)),
         tools::text_section(asset::kProvenanceSection, name,
                             tools::provenance(file_name_of(path), source, "", kToolVersion))};
-    const tools::TipFigures least = tools::least_figures(device);
+    const tools::RangeFigures least = tools::least_figures(device);
     if (least.least_mass_kg > 0)
       baked.sections.push_back(
           tools::text_section(asset::kBoundsSection, name,
@@ -210,6 +210,15 @@ BakedInput bake_device(const std::string& path) {
         (device.is_homed ? "homed by the program (part `homing`), " : "") +
         (device.has_second_encoders ? "second encoders (part `second_encoders`), " : "") +
         std::to_string(bytes_of(baked.sections)) + " bytes"};
+    if (least.turns || least.whole < least.poses)
+      baked.report.push_back(
+          "warning: its ranges contain a singularity, or poses that the links do not reach: the "
+          "force fades there; narrow low_ and high_ (firmtouch-sim device " +
+          path + ")");
+    if (!(least.least_mass_kg > 0))
+      baked.report.push_back(
+          "warning: its inertia is not positive definite: no run can simulate it, and walls that "
+          "are not stable are enabled; state rotor_0 or masses of links");
   } catch (const tools::Refused& refused) {
     fail_input(refused.what());
   }

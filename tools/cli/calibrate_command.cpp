@@ -177,6 +177,12 @@ int run_calibrate(const Arguments& arguments) {
   const bool is_study = arguments.has("--study"), is_plan = arguments.has("--plan");
   if ((is_study || is_plan) != (arguments.positionals().size() == 1) || (is_study && is_plan))
     fail_usage("calibrate: give a file of touches, or one of --study and --plan without one");
+  if ((is_plan || is_study) && arguments.has("-o"))
+    fail_usage("calibrate: -o is for what touches find; --plan and --study print to stdout");
+  if (is_plan || is_study)
+    for (const tools::JointMotion& at : tools::grid_poses(device))
+      if (!tools::points_of(device, at).is_closed)
+        fail_input(path + ": there are poses that the links do not reach; narrow low_ and high_");
   if (is_plan) return print_plan(device, arguments.count("--plan", 0, 1, 100000)), kDone;
   if (is_study) return print_study(device, arguments);
   const std::string touches = arguments.positionals()[1], output = arguments.text("-o", "");

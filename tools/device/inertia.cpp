@@ -133,9 +133,10 @@ void lower(double& least, double value) {
 
 }  // namespace
 
-TipFigures least_figures(const LinkageDevice& device) {
+RangeFigures least_figures(const LinkageDevice& device) {
   const uint32_t joints = device.joints.joints, steps = joints == 3 ? 20 : 100;
-  TipFigures least;
+  RangeFigures least;
+  bool is_right = false, is_left = false;
   uint32_t at[kJoints] = {};  // counts through the grid
   while (at[joints - 1] <= steps) {
     float angle_rad[kJoints] = {};
@@ -148,13 +149,20 @@ TipFigures least_figures(const LinkageDevice& device) {
     }
     const device::Pose pose = std::visit(
         [&](const auto& linkage) { return device::pose_of(linkage, angle_rad); }, device.linkage);
+    ++least.poses;
     if (pose.is_reachable && pose.reciprocal_condition >= device.limits.full_from) {
+      ++least.whole;
+      const Point a = to_point(pose.column_m[0]), b = to_point(pose.column_m[1]);
+      const Point c = joints == 2 ? Point{0, 0, 1} : to_point(pose.column_m[2]);
+      const Point across{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+      (dot(across, c) > 0 ? is_left : is_right) = true;
       const TipFigures tip = tip_figures(device, motion);
       lower(least.least_mass_kg, tip.least_mass_kg);
       lower(least.least_damping_N_s_per_m, tip.least_damping_N_s_per_m);
     }
     for (uint32_t k = 0; k < joints && ++at[k] > steps && k + 1 < joints; ++k) at[k] = 0;
   }
+  least.turns = is_right && is_left;
   return least;
 }
 

@@ -29,6 +29,10 @@ TipFigures tip_figures(const LinkageDevice& device, const JointMotion& at);
 
 /// The least of each on a grid over the joints' ranges, ends included, where the tip has the whole
 /// force; 0: it has none.
-TipFigures least_figures(const LinkageDevice& device);
+struct RangeFigures : TipFigures {
+  uint32_t poses = 0, whole = 0;  // of the grid, and with the whole force
+  bool turns = false;             // there are poses of both orientations: a singularity between
+};
+RangeFigures least_figures(const LinkageDevice& device);
 
 }  // namespace firmtouch::tools
