@@ -40,7 +40,7 @@ void study_passivity(const std::vector<std::string>& machines, uint32_t hands,
       if (progress) progress(++done / (kRows * static_cast<double>(machines.size())));
     };
     const double stiffest_N_per_m = stiffest_of(machine);
-    report.figure("stiffest wall that is predicted, at 1 kHz", machine, stiffest_N_per_m, "N/m");
+    report.figure("stiffest wall within 1 mJ, at 1 kHz", machine, stiffest_N_per_m, "N/m");
     said("random hands: energy given", random_hands(machine, stiffest_N_per_m, hands, {}));
     said("hands with a mass: energy given", massive_hands(machine, stiffest_N_per_m, hands, {}));
     said("worst hand found by hill climbing: energy given",

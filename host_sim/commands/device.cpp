@@ -89,7 +89,8 @@ void print_space(const Workspace& space, uint32_t joints) {
   if (has_inertia(space))
     std::printf(
         "least mass of the tip                      %.3g g\n"
-        "stiffest wall that is predicted, at 1 kHz   %.0f N/m\n",
+        "stiffest wall within 1 mJ, at 1 kHz         %.0f N/m, if it is stable: firmtouch-sim "
+        "z-width\n",
         space.least_mass_kg * 1e3, stiffest_wall_N_per_m(space, 1e-3));
   else if (space.with_whole_force > 0)
     std::printf(
