@@ -11,6 +11,8 @@
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
+#include "host_sim/device/drawn_links.hpp"
+#include "host_sim/plant/sampled_wall.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -107,7 +109,8 @@ size_t checked_ticks(const Environment& environment, size_t ticks) {
 
 Summariser::Summariser(const Scenario& scenario, const Environment& environment,
                        const RunFacts& facts)
-    : environment_(environment),
+    : scenario_(scenario),
+      environment_(environment),
       moving_(environment.meshes(),
               static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
       tool_(environment.tool(), static_cast<float>(parameter_value(scenario, params::kTickPeriod))),
@@ -142,6 +145,27 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
                    (environment.has_guide() ? parameter_value(scenario, params::kGuideWork) : 0)));
   if (summary_.has_surface)
     stride_ = 1 + facts.ticks / (checked_ticks(environment, facts.ticks) + 1);
+}
+
+void Summariser::add_walls(Summary& summary) const {
+  const tools::LinkageDevice& device = *scenario_.linkage;
+  const auto walls = [&](const tools::TipFigures& tip) {
+    SampledWall wall;
+    wall.mass_kg = tip.least_mass_kg, wall.viscous_N_s_per_m = tip.least_damping_N_s_per_m;
+    wall.damping_N_s_per_m = parameter_value(scenario_, params::kContactDamping);
+    wall.period_s = parameter_value(scenario_, params::kTickPeriod);
+    const double share = static_cast<double>(environment_.stiffening().share);
+    return Summary::Walls{exact_limit_N_per_m(wall) / share, passive_limit_N_per_m(wall) / share};
+  };
+  TipFollower follower(device);
+  const JointMotion* const at = peak_N_ > 0 ? follower.at(peak_m_) : nullptr;
+  if (at == nullptr) return;
+  const tools::TipFigures tip = tools::tip_figures(device, *at),
+                          worst = tools::least_figures(device);
+  if (!(tip.least_mass_kg > 0 && worst.least_mass_kg > 0)) return;
+  for (uint32_t k = 0; k < device.joints.joints; ++k)
+    summary.peak_joints_rad.push_back(at->angle_rad[k]);
+  summary.peak_walls = walls(tip), summary.worst_walls = walls(worst);
 }
 
 // Objects of one mesh share one.
@@ -207,6 +231,7 @@ void Summariser::add(const RunTick& tick) {
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
   const Vec contact_N = contact_force_N(out, stiffness_N_per_m_);
+  if (is_on && norm(contact_N) > peak_N_) peak_N_ = norm(contact_N), peak_m_ = wide(out.position_m);
   quality_.add(force_N, contact_N, turn_.add_rad(out, contact_N), is_on);
   if (is_on && norm(force_N) > kAtLimit * summary_.force_limit_N) ++summary_.limit_ticks;
   const double load = record.input.last_work_us * 1e-6 * facts_.rate_Hz;
@@ -244,6 +269,7 @@ void Summariser::check_certificate(const record::TickOutput& out) {
 
 Summary Summariser::finish() {
   Summary summary = summary_;
+  if (scenario_.linkage) add_walls(summary);
   const double ticks = static_cast<double>(std::max<size_t>(summary.ticks, 1));
   summary.seconds = static_cast<double>(summary.ticks) / facts_.rate_Hz;
   summary.mean_load = load_ / ticks;
@@ -332,6 +358,15 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
   if (!homing_text(s).empty()) line("  homing         %s\n", homing_text(s).c_str());
   if (s.refused_wall_ticks + s.forced_wall_ticks > 0)
     line("  walls          %s\n", walls_text(s).c_str());
+  if (!s.peak_joints_rad.empty()) {
+    line(
+        "  walls by pose  stable to %.0f N/m and passive to %.0f where the force was largest, "
+        "joints",
+        s.peak_walls.stable_N_per_m, s.peak_walls.passive_N_per_m);
+    for (const double angle_rad : s.peak_joints_rad) line(" %.1f", angle_rad * kDegrees);
+    line(" deg; at the worst pose to %.0f and %.0f; contact is enabled to %.0f\n",
+         s.worst_walls.stable_N_per_m, s.worst_walls.passive_N_per_m, s.stable_contact_N_per_m);
+  }
   line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"

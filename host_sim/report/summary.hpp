@@ -46,6 +46,13 @@ struct Summary {
   size_t refused_wall_ticks = 0, forced_wall_ticks = 0;
   double stable_contact_N_per_m = 0, stable_guide_N_per_m = 0;  // of a linkage
   double stable_texture_N = 0;  // the force up to which its textures are; 0: it has none
+  // Of contact, with a linkage's own damping: at its worst pose, and where it had the largest
+  // force; no joints: it had none.
+  struct Walls {
+    double stable_N_per_m = 0, passive_N_per_m = 0;
+  };
+  Walls worst_walls, peak_walls;
+  std::vector<double> peak_joints_rad;
   // How it feels (report/contact_quality.hpp), while the motors were on.
   double tool_radius_m = 0;
   bool has_proxy = false;  // which has a way out at any depth
@@ -82,9 +89,11 @@ class Summariser {
   };
   void add_oracles();
   void check_certificate(const record::TickOutput& out);
+  void add_walls(Summary& summary) const;
 
   double true_distance_m(Vec at_m);
 
+  const Scenario& scenario_;
   const Environment& environment_;
   std::vector<BruteForce> brute_force_;  // of its different meshes
   std::vector<size_t> oracle_of_;        // of each object: one of these
@@ -101,7 +110,8 @@ class Summariser {
   Made used_, requested_;
   std::vector<double> ratios_;  // of lower bound to truth, at most 1e5
   uint64_t visits_ = 0, instructions_ = 0;
-  double deviation_m_ = 0, load_ = 0;
+  double deviation_m_ = 0, load_ = 0, peak_N_ = 0;
+  Vec peak_m_;
 };
 
 /// The same for a run in memory.

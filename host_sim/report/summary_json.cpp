@@ -45,6 +45,11 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
         .add("stable_texture_N", s.stable_texture_N)
         .add("refused_wall_ticks", s.refused_wall_ticks)
         .add("forced_wall_ticks", s.forced_wall_ticks);
+  if (!s.peak_joints_rad.empty())
+    all.add("stable_at_worst_pose_N_per_m", s.worst_walls.stable_N_per_m)
+        .add("passive_at_worst_pose_N_per_m", s.worst_walls.passive_N_per_m)
+        .add("stable_at_largest_force_N_per_m", s.peak_walls.stable_N_per_m)
+        .add("passive_at_largest_force_N_per_m", s.peak_walls.passive_N_per_m);
   all.add("faults", uint64_t{s.faults}).add("faults_names", json_text(s.fault_names));
   if (s.fault_s >= 0) all.add("fault_s", s.fault_s).add("fault_is_scripted", s.fault_is_scripted);
   return all.add("peak_memory_bytes", uint64_t{peak_memory_bytes()}).object() + "\n";
