@@ -174,7 +174,8 @@ cli::Command device_command() {
       "carried_share: of max_torque_0, for the weight.\nmax_speed: a faster step of an encoder is "
       "rejected. home_torque_0: 0.3 of max_torque_0 if not given.\nhome_margin: by which the "
       "travel may miss the range. index_0: angle of an index pulse.\nsecond_within: by which a "
-      "joint's two encoders may differ. cable_0: 0 is rigid.\nCentre and inertia of a link are "
+      "joint's two encoders may differ. cable_0: 0 is rigid. poles_0: periods of "
+      "ripple_0 and cogging_0 in a turn.\nCentre and inertia of a link are "
       "those of an even rod if not given.\n" +
       machines() +
       "Exit code 1: a pose of the ranges is not reachable, singular, beyond the fade, or without "

@@ -141,7 +141,12 @@ bool print_energy(std::FILE* to, const EnergyBook& book) {
                "within %.1e of %.4g J\n",
                book.hand_J, book.motors_J, book.lost_J, book.stored_J - book.start_J,
                std::fabs(error), book.turnover_J);
-  return std::fabs(error) <= kMaxBalanceError;
+  if (std::fabs(error) <= kMaxBalanceError) return true;
+  std::cerr
+      << "firmtouch-sim: the energy does not balance to " << kMaxBalanceError
+      << ": a cable rings or a stop is too stiff for steps of 20 us; state cable_damping_, or "
+         "lower cable_ or stop_stiffness\n";
+  return false;
 }
 
 // Processor time of this process; of a controller outside of it the time that passes.

@@ -20,6 +20,7 @@ class DrivenLinkage {
 
   /// Angle of the rotor less that of the joint.
   double twist_rad(uint32_t joint) const;
+  double rotor_rad(uint32_t joint) const { return rotor(joint).angle_rad; }
   double rotor_rad_per_s(uint32_t joint) const { return rotor(joint).rate_rad_per_s; }
   void set_twist(uint32_t joint, double twist_rad);
 

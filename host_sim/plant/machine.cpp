@@ -42,7 +42,10 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
   if (scenario.linkage) {
     linkage_.emplace(linkage_at(scenario, start_m, start_));
     device_ = &*scenario.linkage;
-    for (uint32_t k = 0; k < joint_count(); ++k) turns_[k] = index_turns(k);
+    for (uint32_t k = 0; k < joint_count(); ++k) {
+      turns_[k] = index_turns(k);
+      motors_[k] = Motor(device_->masses.joint[k]);
+    }
     delayed_Nm_.resize(scenario.device.output_delay_samples);
     for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
       zero_count_[k] = linkage_->count(k);
@@ -85,7 +88,11 @@ void Machine::advance(Vec hand_N, double time_s) {
   if (axes_) {
     axes_->advance(hand_N, time_s);
   } else {
-    linkage_->advance({motor_Nm_.x, motor_Nm_.y, motor_Nm_.z}, hand_N, time_s);
+    const double wanted_Nm[] = {motor_Nm_.x, motor_Nm_.y, motor_Nm_.z};
+    double torque_Nm[tools::kJoints] = {};
+    for (uint32_t k = 0; k < joint_count(); ++k)
+      torque_Nm[k] = motors_[k].torque_Nm(wanted_Nm[k], linkage_->rotor_rad(k), time_s);
+    linkage_->advance(torque_Nm, hand_N, time_s);
     pass_pulses();
   }
   locate();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host_sim/device/driven_linkage.hpp"
+#include "host_sim/device/motor.hpp"
 #include "host_sim/plant/device.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
@@ -72,6 +73,7 @@ class Machine {
   std::optional<DrivenLinkage> linkage_;
   std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first
   Vec motor_Nm_;
+  Motor motors_[tools::kJoints];
   double turns_[3] = {};  // whole index periods of a joint
   uint32_t pulses_ = 0;
   uint8_t latched_[3] = {};

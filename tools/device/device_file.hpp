@@ -29,6 +29,9 @@ struct JointFriction {
   double backlash_rad = 0;                        // the whole gap
   double viscous_N_m_s = 0;
   double coulomb_N_m = 0;
+  double lag_s = 0;                    // of the amplifier, first order
+  double ripple = 0, cogging_N_m = 0;  // share of the torque, and beside it: amplitudes
+  double poles = 0;                    // periods of both in a turn of the joint
 };
 
 /// What the simulator needs, and the compensation of weight.

@@ -131,6 +131,9 @@ void check_cables(const std::string& name, const GivenKeys& given, const Linkage
              "on `rotor" + end +
                  "` would ring at more than 1.6 kHz; leave the cable out, as it is rigid, or give "
                  "the rotor's inertia");
+    for (const char* const key : {"ripple", "cogging"})
+      if (given.count(key + end) != 0 && !(joint.poles > 0))
+        refuse(name, given, key + end, "needs `poles" + end + "`, its periods in a turn");
     if (joint.backlash_rad > 0 && !(joint.cable_N_m_per_rad > 0))
       refuse(name, given, "backlash" + end, "needs `cable" + end + "`");
   }
