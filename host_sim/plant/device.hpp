@@ -14,6 +14,7 @@ struct DeviceModel {
   double encoder_quantum_m = 0;       // metres per count; 0: from the controller's parameters
   double force_limit_N = 12;          // per motor; the device saturates there
   uint32_t output_delay_samples = 0;  // ticks from the computed force to the motor's
+  double output_delay_part = 0;       // of a sample more, from 0 to 1: of a linkage
 };
 
 /// One axis under a force that is constant during `time_s`. Exact for mass and viscous friction, so

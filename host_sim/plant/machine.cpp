@@ -47,9 +47,14 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
       motors_[k] = Motor(device_->masses.joint[k]);
     }
     delayed_Nm_.resize(scenario.device.output_delay_samples);
+    late_s_ = scenario.device.output_delay_part / scenario.rate_Hz;
     for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
       zero_count_[k] = linkage_->count(k);
   } else {
+    if (scenario.device.output_delay_part > 0)
+      throw Refused(scenario.file +
+                    ": `output_delay` of parts of a sample needs a linkage; write " +
+                    "whole samples, or name one: `device FILE`");
     axes_.emplace(scenario.device, start_m - zero_m);
   }
   for (const Event& event : scenario.events) {
@@ -80,6 +85,7 @@ void Machine::command(const float (&motor)[3]) {
                    static_cast<double>(motor[2])};
   if (axes_) return axes_->command(after_failures(wanted));
   delayed_Nm_.push_back(after_failures(wanted));
+  before_Nm_ = motor_Nm_, since_s_ = 0;
   motor_Nm_ = delayed_Nm_.front();
   delayed_Nm_.pop_front();
 }
@@ -88,7 +94,11 @@ void Machine::advance(Vec hand_N, double time_s) {
   if (axes_) {
     axes_->advance(hand_N, time_s);
   } else {
-    const double wanted_Nm[] = {motor_Nm_.x, motor_Nm_.y, motor_Nm_.z};
+    // The mean of a step in which the torque changes.
+    const double share = std::clamp((late_s_ - since_s_) / time_s, 0.0, 1.0);
+    const Vec mean_Nm = share > 0 ? before_Nm_ * share + motor_Nm_ * (1 - share) : motor_Nm_;
+    since_s_ += time_s;
+    const double wanted_Nm[] = {mean_Nm.x, mean_Nm.y, mean_Nm.z};
     double torque_Nm[tools::kJoints] = {};
     for (uint32_t k = 0; k < joint_count(); ++k)
       torque_Nm[k] = motors_[k].torque_Nm(wanted_Nm[k], linkage_->rotor_rad(k), time_s);

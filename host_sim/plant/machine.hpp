@@ -72,7 +72,8 @@ class Machine {
   std::optional<Device> axes_;
   std::optional<DrivenLinkage> linkage_;
   std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first
-  Vec motor_Nm_;
+  Vec motor_Nm_, before_Nm_;    // now, and until late_s_ after the command
+  double late_s_ = 0, since_s_ = 0;
   Motor motors_[tools::kJoints];
   double turns_[3] = {};  // whole index periods of a joint
   uint32_t pulses_ = 0;

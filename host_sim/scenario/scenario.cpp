@@ -109,8 +109,8 @@ bool Reader::own_key(const std::string& name, LineReader& words) {
   if (name != "output_delay") return false;
   once(name, words);
   const double samples = words.quantity(name, "samples", 0, kMaxDelaySamples);
-  if (samples > std::floor(samples)) words.refuse("`output_delay` is a whole number of samples");
   out.device.output_delay_samples = static_cast<uint32_t>(samples);
+  out.device.output_delay_part = samples - std::floor(samples);
   return true;
 }
 
@@ -321,7 +321,8 @@ std::string scenario_help() {
   }
   help << "  hand NAME weak|mean|firm          the five keys of a hand with a mass; NAME: "
        << hand_names() << "\n";
-  help << "  output_delay VALUE samples        from the computed force to the motor's (0)\n"
+  help << "  output_delay VALUE samples        from the computed force to the motor's (0);\n"
+          "                                    parts of a sample: of a linkage\n"
           "  PARAMETER VALUE UNIT              any parameter of the controller, listed below\n\n"
           "The hand's script; the lines run one after the other:\n"
           "  move to X Y Z m at V m/s\n"

@@ -88,7 +88,6 @@ TEST(Scenario_EveryMistake_ReportsItsLine) {
       {"mass 1 kg 2", "unexpected `2`"},
       {"contact_stiffness 1e9 N/m", "outside"},
       {"mesh_work 3 m", "unexpected `m`"},
-      {"output_delay 1.5 samples", "whole number"},
       {"start 1 2 m", "needs a number"},
       {"start 1 2 3", "the unit of `start`"},
       {"start 1 2 1e9 m", "outside"},
