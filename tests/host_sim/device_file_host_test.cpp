@@ -72,6 +72,10 @@ TEST(DeviceFile_EveryKey_ConvertsToSi) {
   CHECK(near(indexed.homing.index_rad[0], 1.570796327));
   CHECK(near(indexed.homing.index_period_rad[1], .366519143));
   CHECK(near(indexed.homing.index_within_rad, .008726646));
+  const LinkageDevice derated =
+      read(kFiveBar + "continuous_torque_1 90 mN*m\nthermal_time_1 5 s\n");
+  CHECK(derated.is_derated && near(derated.continuous_Nm[1], .09));
+  CHECK(near(derated.thermal_time_s[1], 5));
   const LinkageDevice delta = read(kDelta + "tip below\n");
   CHECK(!std::get<device::Delta>(delta.linkage).is_tip_above);
   CHECK(near(std::get<device::Delta>(delta.linkage).side_m, .0045));
@@ -128,6 +132,15 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
                 "test.device:18: `second_within` needs 3 counts");
   check_refusal(kFiveBar + "second_1 0 counts/rad\nsecond_within 1 deg\n",
                 "test.device:18: `second_within` needs a `second_` other than 0");
+  const std::string thermal = "continuous_torque_1 0.1 N*m\nthermal_time_1 ";
+  check_refusal(kFiveBar + edited(thermal, "0.1", "0.21") + "5 s\n",
+                "test.device:17: `continuous_torque_1` needs to be above 0, from `home_torque_`");
+  check_refusal(kFiveBar + "home stops\nhome_torque_1 0.11 N*m\n" + thermal + "5 s\n",
+                "test.device:19: `continuous_torque_1` needs to be above 0, from `home_torque_`");
+  check_refusal(kFiveBar + thermal + "0.39 s\n", "test.device:18: `thermal_time_1` needs 0.1 s");
+  check_refusal(kFiveBar + edited(thermal, "0.1", "0") + "0 s\n",
+                "`continuous_torque_0` or that of another joint");
+  check_refusal(kFiveBar + "thermal_time_1 5 s\n", "needs `continuous_torque_1`, too");
   check_refusal(kFiveBar + "cogging_1 1 mN*m\n", "test.device:17: `cogging_1` needs `poles_1`");
   check_refusal(kFiveBar + "cable_0 10 N*m/rad\n", "test.device:17: `cable_0` on `rotor_0` would");
   check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n",

@@ -111,6 +111,17 @@ void add_index_pulses(LinkageDevice& device, Keys& to) {
   to.part("index_within", "rad", 100, device.homing.index_within_rad);
 }
 
+void add_derating(LinkageDevice& device, Keys& to) {
+  for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
+    to.keys.push_back(
+        {of("continuous_torque", k), "N*m", 0, 1000, false, kNotGiven, [&device, k](double si) {
+           device.continuous_Nm[k] = static_cast<float>(si);
+           device.is_derated = true;
+         }});
+    to.part(of("thermal_time", k), "s", 1e4, device.thermal_time_s[k]);
+  }
+}
+
 void add_homing(LinkageDevice& device, Keys& to) {
   for (const char* by : {"stops", "pose"})
     to.words.push_back({"home", by, false, [&device, by] {
@@ -178,6 +189,7 @@ void add_common(LinkageDevice& device, Keys& to) {
   add_homing(device, to);
   add_index_pulses(device, to);
   add_second_encoders(device, to);
+  add_derating(device, to);
   to.flag("walls", "forced", "stable", device.are_walls_forced);
   add_masses(device, to);
 }

@@ -60,6 +60,8 @@ struct LinkageDevice {
   bool has_second_encoders = false;  // on joints, compared with the first
   float second_counts_per_rad[device::kMaxJoints] = {};  // 0: the joint has none
   float second_within_rad = 0;                           // by which they may differ from the first
+  bool is_derated = false;                               // motors have thermal limits
+  float continuous_Nm[device::kMaxJoints] = {}, thermal_time_s[device::kMaxJoints] = {};
 };
 
 /// Reads a device file: a statement a line, `KEY VALUE UNIT`; # begins a comment.
@@ -76,6 +78,7 @@ struct LinkageDevice {
 ///     of
 ///                                     max_torque_0), home_speed, home_margin, home_pose_0
 ///     index_0 30 deg                  optional, of each joint: also index_period_0, index_within
+///     continuous_torque_0 90 mN*m     optional, of each joint, with thermal_time_0 5 s
 ///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
 ///                                     middle), proximal_inertia_0 (default: of an even rod)
 /// `name` stands before the line in messages.

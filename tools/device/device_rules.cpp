@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "firmtouch/device/derating.hpp"
 #include "firmtouch/device/index_pulses.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "firmtouch/device/second_encoders.hpp"
@@ -38,7 +39,13 @@ constexpr Cause kCauses[] = {
     {device::kRuleIndex, 1, "index_period_", "needs 240 counts of its joint, or more"},
     {device::kRuleIndex, 4, "index_within", "needs 3 to 60 counts of each joint"},
     {device::kRuleIndex, 7, "index_period_0",
-     "and those of the other joints need home_margin or more, and less than the joint's range"}};
+     "and those of the other joints need home_margin or more, and less than the joint's range"},
+    {device::kRuleDerating, 0, "continuous_torque_",
+     "needs to be above 0, from `home_torque_` to `max_torque_` of its joint"},
+    {device::kRuleDerating, 3, "thermal_time_",
+     "needs 0.1 s (max_torque_ / continuous_torque_)^2 to 10000 s"},
+    {device::kRuleDerating, 6, "continuous_torque_0",
+     "or that of another joint needs to be above 0"}};
 
 std::string place(const std::string& name, int line) { return name + ":" + std::to_string(line); }
 
@@ -120,6 +127,18 @@ void check_index_pulses(const std::string& name, const GivenKeys& given,
   }
 }
 
+// Both of a joint, or none.
+void check_derating(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const std::string end = "_" + std::to_string(k);
+    const std::string torque = "continuous_torque" + end, time = "thermal_time" + end;
+    if (given.count(torque) == given.count(time)) continue;
+    const bool has_torque = given.count(torque) != 0;
+    refuse(name, given, has_torque ? torque : time,
+           "needs `" + (has_torque ? time : torque) + "`, too");
+  }
+}
+
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
 void check_cables(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
   constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
@@ -146,10 +165,13 @@ core::Verdict check_stored(core::Bytes section) {
   device::StoredHoming homing;
   device::IndexPulses index;
   device::SecondEncoders second;
-  const core::Bytes homed = device::before_index_pulses(section);
+  device::Derating derating;
+  const core::Bytes cold = device::before_derating(section);
+  const core::Bytes homed = device::before_index_pulses(cold);
   core::Verdict verdict = open(device::before_second_encoders(homed), linkage, homing);
-  if (verdict.ok() && homing.is_open()) verdict = open(section, linkage, homing, index);
-  return verdict.ok() ? open(section, linkage, second) : verdict;
+  if (verdict.ok() && homing.is_open()) verdict = open(cold, linkage, homing, index);
+  if (verdict.ok()) verdict = open(cold, linkage, second);
+  return verdict.ok() ? open(section, linkage, derating) : verdict;
 }
 
 void complete_and_check(const std::string& name, const GivenKeys& given, LinkageDevice& device) {
@@ -159,7 +181,8 @@ void complete_and_check(const std::string& name, const GivenKeys& given, Linkage
   if (!device.has_second_encoders && given.count("second_within") != 0)
     refuse(name, given, "second_within",
            "needs `second_0`, the counts of a joint's second encoder");
-  if (device.is_homed || device.has_second_encoders) {
+  check_derating(name, given, device);
+  if (device.is_homed || device.has_second_encoders || device.is_derated) {
     const std::vector<uint8_t> stored = stored_bytes_of(device);
     refuse_broken(name, given, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));
   }

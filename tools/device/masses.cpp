@@ -142,6 +142,12 @@ std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
     second.within_rad = device.second_within_rad;
     append(bytes, second);
   }
+  if (device.is_derated) {
+    device::DeratingLayout derating = {};
+    put(derating.continuous_Nm, device.continuous_Nm, 0, device.joints.joints);
+    put(derating.time_s, device.thermal_time_s, 0, device.joints.joints);
+    append(bytes, derating);
+  }
   return bytes;
 }
 

@@ -117,7 +117,8 @@ uint32_t AnyDevice::texture_state(const Values& values, scene::Stiffening by) co
 // The weight is taken up over ramp_in_s, and let go as fast as a force ramps out. The motors hold
 // the torques for a tick, so they get those of its middle: half a tick late they would give energy
 // to a moving hand (host_sim.Passivity_CarriedWeight_GivesAMovingHandNoEnergy).
-void AnyDevice::carry(const Values& values, bool is_on, float (&torque_Nm)[kMaxJoints]) {
+void AnyDevice::carry(const Values& values, bool is_on, const float* largest_Nm,
+                      float (&torque_Nm)[kMaxJoints]) {
   const float tick_s = values[params::kTickPeriod];
   const float share = linkage_.layout().carried_share;
   const float ahead = carried_ > 0.0f ? 0.5f : 0.0f;  // of the change since the last tick
@@ -131,7 +132,7 @@ void AnyDevice::carry(const Values& values, bool is_on, float (&torque_Nm)[kMaxJ
   const Vec3 whole_Nm = carrying_torques_Nm(linkage_, angle_rad_, pose_);
   const float carrying_Nm[kMaxJoints] = {whole_Nm.x, whole_Nm.y, whole_Nm.z};
   for (uint32_t k = 0; k < linkage_.layout().joints; ++k) {
-    const float most_Nm = share * linkage_.layout().max_torque_Nm[k];
+    const float most_Nm = share * largest_Nm[k];
     const float middle_Nm = carrying_Nm[k] + (carrying_Nm[k] - weight_Nm_[k]) * ahead;
     weight_Nm_[k] = carrying_Nm[k];
     const float wanted_Nm = middle_Nm * carried_;
@@ -177,10 +178,13 @@ bool AnyDevice::drive(const Values& values, const Push& push, const device::Join
 bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& guard,
                      record::TickOutput& output) {
   if (!linkage_.is_open()) return cartesian_.push(values, push, guard, output);
+  const float* const largest_Nm =
+      push.largest_Nm != nullptr ? push.largest_Nm : linkage_.layout().max_torque_Nm;
   float carrying_Nm[kMaxJoints] = {};
-  carry(values, push.is_on, carrying_Nm);
+  carry(values, push.is_on, largest_Nm, carrying_Nm);
   device::TorqueLimits limits = linkage_.limits();
-  for (uint32_t k = 0; k < kMaxJoints; ++k) limits.max_torque_Nm[k] -= size(carrying_Nm[k]);
+  for (uint32_t k = 0; k < linkage_.layout().joints; ++k)
+    limits.max_torque_Nm[k] = largest_Nm[k] - size(carrying_Nm[k]);
   device::JointTorques wanted = torques(pose_, limits, push.force_N);
   for (uint32_t k = 0; k < kMaxJoints; ++k) wanted.torque_Nm[k] += carrying_Nm[k];
   const bool passed = drive(values, push, wanted, guard, output);

@@ -68,9 +68,11 @@ class AnyDevice : public DevicePolicy {
 
   core::Bytes section_;
   device::StoredLinkage linkage_;
+  float before_Nm_[device::kMaxJoints] = {};  // torques of the last tick
 
  private:
-  void carry(const params::Values& values, bool is_on, float (&torque_Nm)[device::kMaxJoints]);
+  void carry(const params::Values& values, bool is_on, const float* largest_Nm,
+             float (&torque_Nm)[device::kMaxJoints]);
   bool knows_walls() const { return linkage_.is_open() && linkage_.layout().least_mass_kg > 0.0f; }
   bool is_stable(const params::Values& values, float stiffness_N_per_m,
                  params::Index damping) const;
@@ -83,7 +85,6 @@ class AnyDevice : public DevicePolicy {
   device::JointState joints_;
   device::Pose pose_ = {};
   float angle_rad_[device::kMaxJoints] = {};
-  float before_Nm_[device::kMaxJoints] = {};
   float weight_Nm_[device::kMaxJoints] = {};  // torques that carried it in the last tick
   float carried_ = 0;                         // share of the weight, from 0 to 1
   Rendered rendered_;

@@ -15,6 +15,8 @@ struct Push {
   bool is_on = false;     // the motors are on, and do not ramp out
   bool may_push = false;  // false: the force falls to 0
   bool cut = false;       // no force at all
+  // Of each joint of a linkage the largest torque, or null: that of the asset.
+  const float* largest_Nm = nullptr;
 };
 
 /// What became of the force of the last tick, for the observer of energy.

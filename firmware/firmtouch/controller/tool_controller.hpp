@@ -1,7 +1,7 @@
 #pragma once
+#include "firmtouch/controller/derated_device.hpp"
 #include "firmtouch/controller/mesh_tool.hpp"
 #include "firmtouch/controller/objects_controller.hpp"
-#include "firmtouch/controller/redundant_device.hpp"
 
 namespace firmtouch {
 
@@ -9,11 +9,11 @@ template <class Mesh>
 using SurfacesWithTool = Surfaces<MeshTool, MeshObjects, Mesh, SplineSurface>;
 
 /// Every part of the library, several objects, materials of triangles, a tool of several
-/// spheres (part `tool`), index pulses and second encoders (parts `index_pulses`,
-/// `second_encoders`). The same parameters, and the same bits for an asset without any of these.
-/// What the simulator runs.
-class ToolController : public EveryPart<OneScene, RedundantDevice<IndexedDevice>, FullMaterialMesh,
-                                        SurfacesWithTool<FullMaterialMesh>> {
+/// spheres (part `tool`), index pulses, second encoders and thermal limits (parts `index_pulses`,
+/// `second_encoders`, `derating`). The same parameters, and the same bits for an asset without any
+/// of these. What the simulator runs.
+class ToolController : public EveryPart<OneScene, DeratedDevice<RedundantDevice<IndexedDevice>>,
+                                        FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>> {
  public:
   const scene::StoredMaterials& materials() const {
     return surface<FullMaterialMesh>().materials();
@@ -25,7 +25,7 @@ class ToolController : public EveryPart<OneScene, RedundantDevice<IndexedDevice>
 };
 
 /// With room for the next asset.
-using SwappingToolController = EveryPart<TwoScenes, RedundantDevice<IndexedDevice>,
+using SwappingToolController = EveryPart<TwoScenes, DeratedDevice<RedundantDevice<IndexedDevice>>,
                                          FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>>;
 
 }  // namespace firmtouch

@@ -70,4 +70,12 @@ struct SecondEncodersLayout {
 };
 static_assert(sizeof(SecondEncodersLayout) == 16);
 
+/// Thermal limits of the motors, behind all else in the same section, so that a program without
+/// part `derating` rejects it (R712). Both 0 of a joint without one.
+struct DeratingLayout {
+  float continuous_Nm[3];  // the torque that a motor may have for ever
+  float time_s[3];         // thermal time constant of its winding
+};
+static_assert(sizeof(DeratingLayout) == 24);
+
 }  // namespace firmtouch::device

@@ -29,7 +29,7 @@ enum Rule : uint16_t {
   // The fade is not 0.001 <= gone_at < full_from <= 1.
   kRuleFade = 711,
   // The section is not as long as a linkage, or, with parts that read them, as one with
-  // its homing and its index pulses or second encoders.
+  // its homing, its index pulses or second encoders, and its thermal limits.
   kRuleLinkageSize = 712,
   // There is no such kind of linkage, or not with so many joints.
   kRuleKind = 713,
@@ -49,6 +49,9 @@ enum Rule : uint16_t {
   // Homing is not by stops, an index pulse's angle or period is out of range (240 counts and the
   // margin of homing to the range), its tolerance is not 3 to 60 counts, or it is of no joint.
   kRuleIndex = 719,
+  // A continuous torque is not above 0, from that of homing to the largest, its thermal time is not
+  // from 0.1 s times the square of largest over continuous torque to 10000 s, or there is none.
+  kRuleDerating = 720,
 };
 
 /// What a rule demands, with range and unit, for a message.

@@ -1,6 +1,7 @@
 #include "bake/asset/part_names.hpp"
 
 #include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/device/derating.hpp"
 #include "firmtouch/device/index_pulses.hpp"
 #include "firmtouch/device/second_encoders.hpp"
 
@@ -13,11 +14,13 @@ std::vector<std::string> needed_part_names(const asset::Container& asset) {
     if ((parts >> number & 1u) != 0) names.emplace_back(part_name(number));
   for (uint32_t i = 0; i < asset.section_count(); ++i) {
     if (asset.type(i) != device::kLinkageSection) continue;
-    const core::Bytes whole = asset.section(i), homed = device::before_index_pulses(whole);
+    const core::Bytes whole = asset.section(i), cold = device::before_derating(whole);
+    const core::Bytes homed = device::before_index_pulses(cold);
     const core::Bytes first = device::before_second_encoders(homed);
     if (first.size() == sizeof(device::HomedLinkageLayout)) names.emplace_back("homing");
-    if (homed.size() < whole.size()) names.emplace_back("index_pulses");
+    if (homed.size() < cold.size()) names.emplace_back("index_pulses");
     if (first.size() < homed.size()) names.emplace_back("second_encoders");
+    if (cold.size() < whole.size()) names.emplace_back("derating");
   }
   return names;
 }
