@@ -283,6 +283,34 @@ TEST(Arm_BeyondItsRange_OrTooFast_IsAFault) {
   CHECK_EQ(size_of(fast.output.motor_N), 0.0);
 }
 
+// The base alone turns, ever faster up to a share of the limit: the tip is on a circle. Joints may
+// turn at 50 rad/s.
+TEST(Arm_TipFasterThanMaxSpeed_IsAFault) {
+  constexpr double kLimit_mps = 1.5, kFull = 150;  // ticks
+  for (const double share : std::initializer_list<double>{0.98, 1.02}) {
+    ArmRide ride(arm(1));
+    for (uint32_t tick = 0; tick < 300; ++tick) ride.step(tick);
+    record::TickInput input = ride.input_of(300);
+    const Point tip = tip_of(ride.angle_rad);
+    const double step_rad = share * kLimit_mps * 1e-3 / std::hypot(tip.x, tip.y);
+    const double from_rad = ride.angle_rad[0];
+    input.command = 1 + static_cast<uint32_t>(params::kMaxSpeed);
+    input.command_value = static_cast<float>(kLimit_mps);
+    double turned_rad = 0;
+    for (int tick = 1; tick < 600; ++tick) {
+      ride.controller.tick(input, ride.output);
+      if (tick < kFull) CHECK_EQ(ride.output.faults, 0u);
+      input.command = record::kCommandNone;
+      ++input.tick;
+      input.clock_us += 1000;
+      turned_rad += step_rad * std::min(tick / kFull, 1.0);
+      input.encoder_counts[0] =
+          static_cast<int32_t>(std::lround((from_rad + turned_rad) * kCounts));
+    }
+    CHECK_EQ(ride.output.faults, share > 1 ? servo::kFaultEncoder : 0u);
+  }
+}
+
 TEST(DamagedLinkage_IsRefusedByItsRule) {
   device::LinkageLayout layout = arm(1);
   layout.length_m[1] = 0;
