@@ -86,6 +86,8 @@ void print_space(const Workspace& space, uint32_t joints) {
         "force in every direction, with whole force %.3g N\n"
         "longest motion of the tip by a count       %.3g um\n",
         space.least_force_N, space.count_m * 1e6);
+  if (space.lasting_force_N < space.least_force_N)
+    std::printf("force in every direction, all motors hot   %.3g N\n", space.lasting_force_N);
   if (has_inertia(space))
     std::printf(
         "least mass of the tip                      %.3g g\n"
@@ -120,7 +122,8 @@ std::string json_of(const Workspace& space, const FirmwareCheck& check,
   all.add("with_whole_force", uint64_t{space.with_whole_force});
   all.add("with_faded_force", uint64_t{space.with_faded_force});
   all.add("low_m", point(space.low_m)).add("high_m", point(space.high_m));
-  all.add("least_force_N", space.least_force_N).add("count_m", space.count_m);
+  all.add("least_force_N", space.least_force_N).add("lasting_force_N", space.lasting_force_N);
+  all.add("count_m", space.count_m);
   all.add("has_inertia", has_inertia(space)).add("least_mass_kg", space.least_mass_kg);
   if (has_inertia(space)) all.add("stiffest_wall_N_per_m", stiffest_wall_N_per_m(space, 1e-3));
   all.add("least_condition", space.worst_condition);
@@ -174,7 +177,8 @@ cli::Command device_command() {
       "carried_share: of max_torque_0, for the weight.\nmax_speed: a faster step of an encoder is "
       "rejected. home_torque_0: 0.3 of max_torque_0 if not given.\nhome_margin: by which the "
       "travel may miss the range. index_0: angle of an index pulse.\nsecond_within: by which a "
-      "joint's two encoders may differ. cable_0: 0 is rigid. poles_0: periods of "
+      "joint's two encoders may differ. continuous_torque_0: of a hot motor (I squared "
+      "t).\ncable_0: 0 is rigid. poles_0: periods of "
       "ripple_0 and cogging_0 in a turn.\nCentre and inertia of a link are "
       "those of an even rod if not given.\n" +
       machines() +

@@ -27,8 +27,15 @@ void add_forces(const LinkageDevice& device, const device::Pose& pose, Workspace
   for (uint32_t k = 0; k < device.joints.joints; ++k) {
     const double length_m = norm(to_point(pose.column_m[k]));
     // Worst is the direction of the column itself.
-    const double force_N = wide(device.limits.max_torque_Nm[k]) / length_m;
-    if (!(to.least_force_N > 0) || force_N < to.least_force_N) to.least_force_N = force_N;
+    const double largest_Nm = wide(device.limits.max_torque_Nm[k]);
+    const double lasting_Nm =
+        device.continuous_Nm[k] > 0 ? wide(device.continuous_Nm[k]) : largest_Nm;
+    const auto lower = [&](double torque_Nm, double& least_N) {
+      const double force_N = torque_Nm / length_m;
+      if (!(least_N > 0) || force_N < least_N) least_N = force_N;
+    };
+    lower(largest_Nm, to.least_force_N);
+    lower(lasting_Nm, to.lasting_force_N);
     to.count_m =
         std::max(to.count_m, length_m / std::fabs(wide(device.joints.joint[k].counts_per_rad)));
   }

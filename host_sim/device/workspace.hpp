@@ -18,11 +18,12 @@ struct Workspace {
   double worst_at_rad[device::kMaxJoints] = {};
   bool changes_orientation = false;  // the Jacobian's determinant has both signs
   // Where the whole force is rendered:
-  double least_force_N = 0;  // that the torque limits allow in every direction
-  double count_m = 0;        // longest motion of the tip by one count
-  uint32_t massless = 0;     // poses whose inertia is not positive definite
-  double least_mass_kg = 0;  // that the tip has in any direction of the others
-  JointMotion lightest_at;   // the pose where it has it
+  double least_force_N = 0;    // that the torque limits allow in every direction
+  double lasting_force_N = 0;  // the same while all motors are hot
+  double count_m = 0;          // longest motion of the tip by one count
+  uint32_t massless = 0;       // poses whose inertia is not positive definite
+  double least_mass_kg = 0;    // that the tip has in any direction of the others
+  JointMotion lightest_at;     // the pose where it has it
 };
 
 /// `steps` + 1 angles a joint, ends included.

@@ -160,13 +160,17 @@ TEST(Workspace_GoodRanges_AreFreeOfSingularities) {
 
 // By hand, of the elbow at a right angle: columns of 0.25 and 0.15 m, 0.03 m^2 between them.
 TEST(Workspace_PlanarArm_HasTheForceAndTheCountOfItsLongestColumn) {
-  const LinkageDevice arm = read(
+  const std::string text =
       "linkage serial_arm 2\nlink_0 0.2 m\nlink_1 0.15 m\n"
       "counts_0 1000 counts/rad\nlow_0 0 deg\nhigh_0 90 deg\nmax_torque_0 0.5 N*m\n"
-      "counts_1 500 counts/rad\nlow_1 90 deg\nhigh_1 91 deg\nmax_torque_1 0.6 N*m\n");
-  const Workspace space = host_sim::workspace_of(arm, 10);
+      "counts_1 500 counts/rad\nlow_1 90 deg\nhigh_1 91 deg\nmax_torque_1 0.6 N*m\n";
+  const Workspace space = host_sim::workspace_of(read(text), 10);
   CHECK(host_sim::is_free_of_singularities(space));
   CHECK_LE(std::fabs(space.least_force_N - 0.5 / 0.25), 1e-6);
+  CHECK_EQ(space.lasting_force_N, space.least_force_N);
+  const LinkageDevice hot = read(text + "continuous_torque_1 0.1 N*m\nthermal_time_1 5 s\n");
+  CHECK_LE(std::fabs(host_sim::workspace_of(hot, 10).lasting_force_N - 0.1 / 0.15), 1e-6);
+  CHECK_LE(std::fabs(host_sim::workspace_of(hot, 10).least_force_N - 0.5 / 0.25), 1e-6);
   CHECK_LE(std::fabs(space.count_m - 0.15 / 500), 1e-9);
   CHECK_LE(std::fabs(space.worst_condition - 2 * 0.03 / (0.0625 + 0.0225)), 1e-6);
   CHECK_LE(std::fabs(space.worst_at_rad[1] - 1.570796327), 1e-6);
