@@ -24,7 +24,7 @@ void glide(const DeviceModel& model, double force_N, double time_s, double& x, d
   v += (terminal - v) * lost;
 }
 
-double limited(double force_N, double limit_N) {
+double within(double force_N, double limit_N) {
   return std::isfinite(force_N) ? std::clamp(force_N, -limit_N, limit_N) : 0;
 }
 
@@ -55,9 +55,13 @@ Device::Device(const DeviceModel& model, Vec start_m)
   axis_[2].position_m = start_m.z;
 }
 
-void Device::command(Vec motor_N) {
+Vec Device::limited(Vec motor_N) const {
   const double limit = model_.force_limit_N;
-  motor_N_ = {limited(motor_N.x, limit), limited(motor_N.y, limit), limited(motor_N.z, limit)};
+  return {within(motor_N.x, limit), within(motor_N.y, limit), within(motor_N.z, limit)};
+}
+
+void Device::command(Vec motor_N) {
+  motor_N_ = limited(motor_N);
   if (queue_.empty()) return;
   std::swap(motor_N_, queue_[next_]);
   next_ = (next_ + 1) % queue_.size();

@@ -14,7 +14,7 @@ struct DeviceModel {
   double encoder_quantum_m = 0;       // metres per count; 0: from the controller's parameters
   double force_limit_N = 12;          // per motor; the device saturates there
   uint32_t output_delay_samples = 0;  // ticks from the computed force to the motor's
-  double output_delay_part = 0;       // of a sample more, from 0 to 1: of a linkage
+  double output_delay_part = 0;       // of a sample more, from 0 to 1: in a run
 };
 
 /// One axis under a force that is constant during `time_s`. Exact for mass and viscous friction, so
@@ -41,6 +41,8 @@ class Device {
     return {axis_[0].velocity_mps, axis_[1].velocity_mps, axis_[2].velocity_mps};
   }
   Vec motor_N() const { return motor_N_; }
+  /// What the motors can make of these forces.
+  Vec limited(Vec motor_N) const;
   /// Encoder count: position in quanta, rounded down as an incremental encoder does.
   int32_t count(int axis) const;
 

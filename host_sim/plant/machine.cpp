@@ -38,7 +38,10 @@ double* joint_of(Vec& v, uint32_t joint) { return joint == 0 ? &v.x : joint == 1
 }  // namespace
 
 Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
-    : zero_m_(zero_m), quantum_m_(scenario.device.encoder_quantum_m) {
+    : zero_m_(zero_m),
+      quantum_m_(scenario.device.encoder_quantum_m),
+      delay_(scenario.device.output_delay_samples, scenario.device.output_delay_part,
+             1 / scenario.rate_Hz) {
   if (scenario.linkage) {
     linkage_.emplace(linkage_at(scenario, start_m, start_));
     device_ = &*scenario.linkage;
@@ -46,16 +49,12 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
       turns_[k] = index_turns(k);
       motors_[k] = Motor(device_->masses.joint[k]);
     }
-    delayed_Nm_.resize(scenario.device.output_delay_samples);
-    late_s_ = scenario.device.output_delay_part / scenario.rate_Hz;
     for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
       zero_count_[k] = linkage_->count(k);
   } else {
-    if (scenario.device.output_delay_part > 0)
-      throw Refused(scenario.file +
-                    ": `output_delay` of parts of a sample needs a linkage; write " +
-                    "whole samples, or name one: `device FILE`");
-    axes_.emplace(scenario.device, start_m - zero_m);
+    DeviceModel prompt = scenario.device;
+    prompt.output_delay_samples = 0;
+    axes_.emplace(prompt, start_m - zero_m);
   }
   for (const Event& event : scenario.events) {
     if (event.kind != Event::Kind::kFail) continue;
@@ -79,26 +78,21 @@ void Machine::locate() {
   }
 }
 
-void Machine::command(const float (&motor)[3]) {
+void Machine::command(const float (&motor)[3], double more_s) {
   pulses_ = 0;
   const Vec wanted{static_cast<double>(motor[0]), static_cast<double>(motor[1]),
                    static_cast<double>(motor[2])};
-  if (axes_) return axes_->command(after_failures(wanted));
-  delayed_Nm_.push_back(after_failures(wanted));
-  before_Nm_ = motor_Nm_, since_s_ = 0;
-  motor_Nm_ = delayed_Nm_.front();
-  delayed_Nm_.pop_front();
+  const Vec made = after_failures(wanted);
+  delay_.command(axes_ ? axes_->limited(made) : made, more_s);
 }
 
 void Machine::advance(Vec hand_N, double time_s) {
+  const Vec mean = delay_.mean(time_s);
   if (axes_) {
+    axes_->command(mean);
     axes_->advance(hand_N, time_s);
   } else {
-    // The mean of a step in which the torque changes.
-    const double share = std::clamp((late_s_ - since_s_) / time_s, 0.0, 1.0);
-    const Vec mean_Nm = share > 0 ? before_Nm_ * share + motor_Nm_ * (1 - share) : motor_Nm_;
-    since_s_ += time_s;
-    const double wanted_Nm[] = {mean_Nm.x, mean_Nm.y, mean_Nm.z};
+    const double wanted_Nm[] = {mean.x, mean.y, mean.z};
     double torque_Nm[tools::kJoints] = {};
     for (uint32_t k = 0; k < joint_count(); ++k)
       torque_Nm[k] = motors_[k].torque_Nm(wanted_Nm[k], linkage_->rotor_rad(k), time_s);

@@ -1,10 +1,10 @@
 #pragma once
-#include <deque>
 #include <optional>
 #include <vector>
 
 #include "host_sim/device/driven_linkage.hpp"
 #include "host_sim/device/motor.hpp"
+#include "host_sim/plant/delay_line.hpp"
 #include "host_sim/plant/device.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
@@ -27,8 +27,9 @@ class Machine {
   /// Whether the hand has no hold of the machine any more.
   bool is_torn_off() const { return has_failed(FailureMode::kLinkBroken); }
 
-  /// Motor forces, or joint torques of a linkage, of this tick; they act after the output delay.
-  void command(const float (&motor)[3]);
+  /// Motor forces, or joint torques of a linkage, of this tick; they act after the output delay,
+  /// and `more_s` later: the time that the controller took.
+  void command(const float (&motor)[3], double more_s = 0);
   /// Moves under motors and hand, both constant during `time_s`.
   void advance(Vec hand_N, double time_s);
   Vec position_m() const { return position_m_; }
@@ -71,9 +72,7 @@ class Machine {
   std::vector<Failed> failed_;
   std::optional<Device> axes_;
   std::optional<DrivenLinkage> linkage_;
-  std::deque<Vec> delayed_Nm_;  // torques of a linkage, the oldest first
-  Vec motor_Nm_, before_Nm_;    // now, and until late_s_ after the command
-  double late_s_ = 0, since_s_ = 0;
+  DelayLine delay_;
   Motor motors_[tools::kJoints];
   double turns_[3] = {};  // whole index periods of a joint
   uint32_t pulses_ = 0;

@@ -238,6 +238,8 @@ void Summariser::add(const RunTick& tick) {
   load_ += load;
   summary_.worst_load = std::max(summary_.worst_load, load);
   instructions_ += tick.instructions;
+  summary_.mean_late_s += tick.late_s;
+  summary_.worst_late_s = std::max(summary_.worst_late_s, tick.late_s);
   summary_.worst_instructions = std::max(summary_.worst_instructions, tick.instructions);
   // The tick whose position the local model of this one was made from.
   const Made now{(out.state & record::kStateReady) != 0, wide(out.position_m)};
@@ -273,6 +275,7 @@ Summary Summariser::finish() {
   const double ticks = static_cast<double>(std::max<size_t>(summary.ticks, 1));
   summary.seconds = static_cast<double>(summary.ticks) / facts_.rate_Hz;
   summary.mean_load = load_ / ticks;
+  summary.mean_late_s /= ticks;
   summary.mean_visits = static_cast<double>(visits_) / ticks;
   if (summary.guide_ticks > 0)
     summary.mean_guide_deviation_m = deviation_m_ / static_cast<double>(summary.guide_ticks);
@@ -349,6 +352,10 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
   if (s.worst_instructions > 0)
     line("  instructions   mean %.0f a tick, worst %u; stack %u bytes\n", s.mean_instructions,
          s.worst_instructions, s.stack_high_bytes);
+  if (s.worst_late_s > 0)
+    line("  output delay   mean %.4f ms for the controller's time, worst %.4f ms%s\n",
+         s.mean_late_s * 1e3, s.worst_late_s * 1e3,
+         s.worst_instructions > 0 ? "" : ": the bound of tick_work");
   if (s.contact_ticks + s.guide_ticks > 0)
     line(
         "  feel           %zu ticks at the force limit; deepest %.2f tool radii; chatter %.3f N "

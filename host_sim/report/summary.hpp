@@ -34,6 +34,7 @@ struct Summary {
   bool has_surface = false, has_guide = false;
   double mean_instructions = 0;
   uint32_t worst_instructions = 0, stack_high_bytes = 0;
+  double mean_late_s = 0, worst_late_s = 0;  // of forces, for `controller_clock`
   // Share of the period that a tick took, where its time was measured.
   double mean_load = 0, worst_load = 0;
   uint32_t faults = 0;

@@ -29,6 +29,11 @@ const Key kKeys[] = {
      "local models per second; default: one in every tick"},
     {"duration", "s", 0.001, 3600, [](Scenario& s) -> double& { return s.duration_s; },
      "of the run; default: until the hand's script ends"},
+    {"controller_clock", "Hz", 1e6, 1e11,
+     [](Scenario& s) -> double& { return s.controller_clock_Hz; },
+     "instructions a second: a tick's forces act as late as it takes; the\n"
+     "                                    controller in this process counts none: the bound of "
+     "tick_work"},
     {"mass", "kg", 1e-4, 100, [](Scenario& s) -> double& { return s.device.mass_kg; },
      "moving mass of the device at the tool"},
     {"viscous_friction", "N*s/m", 0, 1000,
@@ -321,8 +326,7 @@ std::string scenario_help() {
   }
   help << "  hand NAME weak|mean|firm          the five keys of a hand with a mass; NAME: "
        << hand_names() << "\n";
-  help << "  output_delay VALUE samples        from the computed force to the motor's (0);\n"
-          "                                    parts of a sample: of a linkage\n"
+  help << "  output_delay VALUE samples        from the computed force to the motor's (0)\n"
           "  PARAMETER VALUE UNIT              any parameter of the controller, listed below\n\n"
           "The hand's script; the lines run one after the other:\n"
           "  move to X Y Z m at V m/s\n"

@@ -61,7 +61,7 @@ class Operator {
     uint32_t once = 0;
     for (; next_ < scenario_.events.size() && scenario_.events[next_].time_s <= time_s; ++next_)
       once |= apply(scenario_.events[next_]);
-    if (last.steps > 0)
+    if (last.steps > 0 && load_ > 0)
       input.last_work_us = static_cast<uint32_t>(std::lround(load_ * 1e6 / scenario_.rate_Hz));
     const bool enabled = enabled_ && input.tick >= enable_tick_;
     input.flags = held_ | once | (enabled ? record::kFlagEnable : 0);
@@ -147,17 +147,6 @@ class Operator {
   bool enabled_ = true;
 };
 
-// A parameter's name without the unit that ends it.
-std::string short_name(const std::string& name) {
-  for (const char* suffix :
-       {"_N_s_per_m", "_N_per_m", "_N_per_s", "_mps", "_Hz", "_J", "_N", "_s", "_m"}) {
-    const std::string end = suffix;
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
-      return name.substr(0, name.size() - end.size());
-  }
-  return name;
-}
-
 void check_command(const Scenario& scenario, const record::TickRecord& record) {
   if ((record.output.state & record::kStateCommandRefused) == 0) return;
   if (record.input.command == record::kCommandClearFaults)
@@ -205,30 +194,6 @@ bool motors_are_on(const record::TickOutput& output) {
   const uint32_t mode = output.state & record::kStateServoMask;
   return mode == static_cast<uint32_t>(servo::Mode::kRampIn) ||
          mode == static_cast<uint32_t>(servo::Mode::kOn);
-}
-
-std::vector<ParameterRow> parameter_rows() {
-  std::vector<ParameterRow> rows;
-  for (const params::Entry& entry : params::kTable) {
-    const std::string unit = entry.unit;
-    rows.push_back({entry.name, short_name(entry.name), unit == "1" ? "" : unit,
-                    static_cast<double>(entry.low), static_cast<double>(entry.high),
-                    static_cast<double>(entry.initial)});
-  }
-  return rows;
-}
-
-std::string parameter_help() {
-  std::ostringstream help;
-  help << "\nParameters of the controller: range (initial value): meaning\n";
-  for (const params::Entry& entry : params::kTable) {
-    const std::string unit = entry.unit;
-    std::string left = "  " + short_name(entry.name) + " VALUE" + (unit == "1" ? "" : " " + unit);
-    left.resize(std::max<size_t>(left.size() + 1, 36), ' ');
-    help << left << entry.low << " to " << entry.high << " (" << entry.initial
-         << "): " << entry.what << "\n";
-  }
-  return help.str();
 }
 
 double parameter_value(const Scenario& scenario, uint32_t parameter) {
@@ -298,6 +263,16 @@ struct Simulation::Loop {
     if (!is_away()) reach_left_s -= period_s;
     return machine.on_way_to_start_m(reach_from, 1 - reach_left_s / kReach_s);
   }
+  // By which the forces of a tick act later. It may take longer than a period: then its successor's
+  // do not overtake them.
+  double late_s(const record::TickRecord& now, uint32_t instructions) {
+    if (!(scenario.controller_clock_Hz > 0)) return 0;
+    if (now.input.command == 1u + params::kTickWork &&
+        (now.output.state & record::kStateCommandTaken) != 0)
+      tick_work = now.input.command_value;
+    const double bound = static_cast<double>(params::kInstructionsAUnit * tick_work);
+    return (instructions > 0 ? instructions : bound) / scenario.controller_clock_Hz;
+  }
   // From the tick `before` to the next.
   void move(uint32_t before) {
     const Vec script_m = this->script_m(before);
@@ -322,6 +297,8 @@ struct Simulation::Loop {
   std::optional<Palm> palm;
   Operator panel;
   record::TickOutput last{};
+  float tick_work = params::kTable[params::kTickWork].initial;
+  uint32_t last_work_us = 0;
   double hand_J = 0;
   uint32_t tick = 0;
   double script_s = 0;
@@ -333,6 +310,9 @@ struct Simulation::Loop {
 Simulation::Simulation(const Scenario& scenario, Tick controller, const Environment& environment,
                        LockStepController* remote)
     : loop_(std::make_unique<Loop>(scenario, std::move(controller), environment, remote)) {
+  if (scenario.controller_clock_Hz > 0 && scenario.geometry_rate_Hz > 0 && remote == nullptr)
+    throw Refused(scenario.file + ": `controller_clock` at two rates needs a controller that " +
+                  "counts: --controller qemu:BOARD, or leave out `geometry_rate`");
   facts_.ticks = tick_count(scenario, loop_->hand);
   if (scenario.linkage && scenario.linkage->is_homed)
     facts_.spare_ticks = static_cast<uint32_t>(kMaxWait_s * scenario.rate_Hz);
@@ -362,6 +342,7 @@ bool Simulation::next(RunTick& tick) {
   record.input.clock_us = static_cast<uint32_t>(static_cast<uint64_t>(std::llround(now_s * 1e6)));
   loop.machine.fail_until(now_s);
   for (int axis = 0; axis < 3; ++axis) record.input.encoder_counts[axis] = loop.machine.count(axis);
+  record.input.last_work_us = loop.last_work_us;
   loop.panel.fill(record.input, loop.last, now_s);
   record.input.flags |= model_flags(loop.scenario, record.input.tick) | loop.machine.flags();
   loop.controller(record.input, record.output);
@@ -373,7 +354,10 @@ bool Simulation::next(RunTick& tick) {
     facts_.difference = first_difference(expected, record.output);
   }
   check_command(loop.scenario, record);
-  loop.machine.command(record.output.motor_N);
+  tick.late_s = loop.late_s(record, tick.instructions);
+  if (tick.instructions > 0)
+    loop.last_work_us = static_cast<uint32_t>(std::lround(tick.late_s * 1e6));
+  loop.machine.command(record.output.motor_N, tick.late_s);
   loop.last = record.output;
   tick.device_m = loop.machine.position_m();
   tick.target_m = loop.arm.position_m();

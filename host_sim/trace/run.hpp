@@ -29,6 +29,7 @@ struct RunTick {
   double hand_J = 0;           // work of the hand on the device so far
   double encoder_off_rad = 0;  // the most by which an encoder has miscounted
   uint32_t instructions = 0;   // 0: the controller does not count them
+  double late_s = 0;           // by which its forces act later, for `controller_clock`
 };
 
 /// A run apart from its ticks.

@@ -9,6 +9,7 @@
 
 using namespace firmtouch;  // NOLINT: a test file
 using host_sim::Motor;
+using host_sim::Vec;
 
 namespace {
 
@@ -77,6 +78,48 @@ TEST(Machine_DelayOfPartOfASample_HasItsImpulse) {
       }
       CHECK_LE(std::fabs(machine.joints().rate_rad_per_s[0] - (4 - delay) * 1e-2), 3e-6);
     }
+}
+
+// Time of the controller delays as `output_delay` does: the same bits.
+TEST(Machine_ConstantTimeOfTheController_IsThatOutputDelay) {
+  for (const double late_s : {1e-4, 4e-4, 230000 / 168e6, 2.5e-3}) {
+    host_sim::Scenario scenario;
+    scenario.linkage = tools::read_device("arm", kHeavy);
+    tools::JointMotion start;
+    start.angle_rad[0] = 0.7, start.angle_rad[1] = 1.2;
+    const Vec start_m = points_of(*scenario.linkage, start).tip.at_m;
+    host_sim::Machine timed(scenario, start_m, {});
+    const double delay = late_s / 1e-3;
+    scenario.device.output_delay_samples = static_cast<uint32_t>(delay);
+    scenario.device.output_delay_part = delay - std::floor(delay);
+    host_sim::Machine delayed(scenario, start_m, {});
+    for (int tick = 0; tick < 100; ++tick) {
+      const float Nm[3] = {std::sin(0.3f * static_cast<float>(tick)), 0.2f, 0};
+      timed.command(Nm, late_s), delayed.command(Nm);
+      for (int i = 0; i < 50; ++i) timed.advance({}, 2e-5), delayed.advance({}, 2e-5);
+      for (int k = 0; k < 2; ++k)
+        CHECK(std::fabs(timed.joints().angle_rad[k] - delayed.joints().angle_rad[k]) <= 0);
+    }
+    CHECK_GE(std::fabs(timed.joints().angle_rad[0] - 0.7), 1e-3);
+  }
+}
+
+// A mass of 100 g under 2 N, of which motors make 1: no two ticks have the same delay. The force of
+// the third tick waits for that of the second.
+TEST(Machine_TimesThatDiffer_KeepTheOrderAndTheImpulse) {
+  for (const int steps : {1, 7, 16}) {
+    host_sim::Scenario scenario;
+    scenario.device = {0.1, 0, 0, 1e-6, 1};
+    host_sim::Machine machine(scenario, {}, {});
+    constexpr double kLate_s[] = {0.25e-3, 2.6e-3, 0, 0.8e-3};
+    constexpr float kForce_N[] = {2, -0.5f, 0.75f, 0};
+    for (int tick = 0; tick < 4; ++tick) {
+      machine.command({kForce_N[tick], 0, 0}, kLate_s[tick]);
+      for (int i = 0; i < steps; ++i) machine.advance({}, 1e-3 / steps);
+    }
+    // 1 N from 0.25 to 3.6 ms, and 0.75 N to 3.8 ms.
+    CHECK_LE(std::fabs(machine.velocity_mps().x - 0.035), 1e-12);
+  }
 }
 
 // Beside its detent a rotor swings at sqrt(cogging x poles / inertia); what is stored is kept.

@@ -37,6 +37,8 @@ constexpr Unit kUnits[] = {
     {"N/ms", "force rate", 1e3},
     {"Hz", "frequency", 1},
     {"kHz", "frequency", 1e3},
+    {"MHz", "frequency", 1e6},
+    {"GHz", "frequency", 1e9},
     {"samples", "samples", 1},
     {"ticks", "samples", 1},
     {"m/s2", "acceleration", 1},
