@@ -179,7 +179,9 @@ cli::Command device_command() {
       "travel may miss the range. index_0: angle of an index pulse.\nsecond_within: by which a "
       "joint's two encoders may differ. continuous_torque_0: of a hot motor (I squared "
       "t).\ncable_0: 0 is rigid. poles_0: periods of "
-      "ripple_0 and cogging_0 in a turn.\nCentre and inertia of a link are "
+      "ripple_0 and cogging_0 in a turn.\nbreakaway_0: dry friction at rest; at a rate w it is "
+      "coulomb_0 + (breakaway_0 - coulomb_0) exp(-(w / stribeck_speed_0)^2).\nCentre and inertia "
+      "of a link are "
       "those of an even rod if not given.\n" +
       machines() +
       "Exit code 1: a pose of the ranges is not reachable, singular, beyond the fade, or without "

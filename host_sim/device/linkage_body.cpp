@@ -47,12 +47,19 @@ LinkageBody::LinkageBody(const LinkageDevice& device, const JointMotion& start)
   moments_ = tools::moments_of(device_);
   elbows_ = moments_.size() / 2;
   for (uint32_t k = 0; k < joints_; ++k) {
-    most_dry_Nm_[k] = device_.masses.joint[k].coulomb_N_m;
-    is_dry_ |= most_dry_Nm_[k] > 0;
+    is_dry_ |= most_dry_Nm(k) > 0;
   }
   here_ = before_ = dynamics_of(motion_);
   book_.stored_J = book_.start_J = here_.stored_J;
   book_.weight_J = here_.weight_J;
+}
+
+double LinkageBody::most_dry_Nm(uint32_t joint) const {
+  const tools::JointFriction& friction = device_.masses.joint[joint];
+  if (!(friction.stribeck_rad_per_s > 0)) return friction.coulomb_N_m;
+  const double rates = motion_.rate_rad_per_s[joint] / friction.stribeck_rad_per_s;
+  return friction.coulomb_N_m +
+         (friction.breakaway_N_m - friction.coulomb_N_m) * std::exp(-rates * rates);
 }
 
 void LinkageBody::add_links(const MovingPoints& points, Dynamics& to) const {
@@ -129,7 +136,9 @@ void LinkageBody::dry_torques(const double (&free)[kJoints], double old, double 
   for (uint32_t k = 0; k < kJoints; ++k)
     for (uint32_t j = 0; j < kJoints; ++j)
       change[k][j] = time_s * ((1 + old) * here_.inverse[k][j] - old * before_.inverse[k][j]);
-  dry_.torques(joints_, change, free, most_dry_Nm_, dry_Nm);
+  double most_Nm[kJoints] = {};
+  for (uint32_t k = 0; k < joints_; ++k) most_Nm[k] = most_dry_Nm(k);
+  dry_.torques(joints_, change, free, most_Nm, dry_Nm);
 }
 
 bool LinkageBody::is_sound(const JointMotion& motion, const Dynamics& dynamics) const {

@@ -31,8 +31,8 @@ struct EnergyBook {
 /// Adams and Bashforth's second order and angles by the trapezoid rule, corrected by the change of
 /// acceleration that follows. Where the rates differ from the trapezoid rule's by more than
 /// kMaxError_rad_per_s, the step is halved, at most kMaxHalvings times: at stops and near
-/// singularities. Coulomb friction is constant in a step: what brings a joint to rest, at most
-/// coulomb_N_m; with it the order is 1.
+/// singularities. Dry friction is constant in a step: what brings a joint to rest, at most
+/// most_dry_Nm(); with it the order is 1.
 /// The ends of the joints' ranges are springs with dampers. Where the links of a loop would come
 /// into one line (span below kMinSpan), a joint would exceed kMaxRate_rad_per_s or anything would
 /// not be finite, the linkage jams until the time passed to advance() is over: it keeps its angles,
@@ -83,6 +83,9 @@ class LinkageBody {
   static void load(const Dynamics& at, Vec hand_N, double (&load_Nm)[kJoints]);
   static void accelerate(const Dynamics& at, const double (&load_Nm)[kJoints],
                          const double (&motor_Nm)[kJoints], double (&acceleration)[kJoints]);
+  // Of a joint at its rate; Gauss's curve of Stribeck friction (Armstrong-Helouvry, Dupont &
+  // Canudas de Wit 1994).
+  double most_dry_Nm(uint32_t joint) const;
   void dry_torques(const double (&free)[kJoints], double old, double time_s,
                    double (&dry_Nm)[kJoints]);
   bool is_sound(const JointMotion& motion, const Dynamics& dynamics) const;
@@ -93,8 +96,7 @@ class LinkageBody {
   LinkageDevice device_;
   uint32_t joints_;
   size_t elbows_ = 0;
-  bool is_dry_ = false;  // has Coulomb friction
-  double most_dry_Nm_[kJoints] = {};
+  bool is_dry_ = false;  // has dry friction
   DryFriction dry_;
   std::vector<tools::RodMoments> moments_;
   JointMotion motion_;

@@ -17,7 +17,7 @@ constexpr uint32_t kSettling = 40, kPeriods = 20;
 LinkageDevice bare(LinkageDevice device, bool has_gap) {
   device.masses.gravity_mps2 = {};
   for (tools::JointFriction& joint : device.masses.joint) {
-    joint.viscous_N_m_s = joint.coulomb_N_m = joint.cable_N_m_s = 0;
+    joint.viscous_N_m_s = joint.coulomb_N_m = joint.breakaway_N_m = joint.cable_N_m_s = 0;
     if (!has_gap) joint.backlash_rad = 0;
   }
   return device;

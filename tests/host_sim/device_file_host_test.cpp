@@ -141,6 +141,12 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
   check_refusal(kFiveBar + edited(thermal, "0.1", "0") + "0 s\n",
                 "`continuous_torque_0` or that of another joint");
   check_refusal(kFiveBar + "thermal_time_1 5 s\n", "needs `continuous_torque_1`, too");
+  check_refusal(kFiveBar + "stribeck_speed_1 1 rad/s\n",
+                "test.device:17: `stribeck_speed_1` needs `breakaway_1`");
+  check_refusal(kFiveBar + "breakaway_1 1 mN*m\n",
+                "test.device:17: `breakaway_1` needs `stribeck_speed_1`");
+  check_refusal(kFiveBar + "coulomb_1 2 mN*m\nbreakaway_1 1 mN*m\nstribeck_speed_1 1 rad/s\n",
+                "test.device:18: `breakaway_1` needs to be at least `coulomb_1`");
   check_refusal(kFiveBar + "cogging_1 1 mN*m\n", "test.device:17: `cogging_1` needs `poles_1`");
   check_refusal(kFiveBar + "cable_0 10 N*m/rad\n", "test.device:17: `cable_0` on `rotor_0` would");
   check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n",

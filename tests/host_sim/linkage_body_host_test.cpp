@@ -98,8 +98,15 @@ TEST(FreeSwing_60Seconds_KeepsItsEnergy) {
 
 // Hand and motors push, friction brakes, and the stops are hit.
 TEST(Balance_WorkIsStoredOrLost) {
-  for (const Swing& swing : swings("viscous_0 1e-4 N*m*s/rad\ncoulomb_0 0.002 N*m\n"
-                                   "coulomb_1 0.003 N*m\nstop_stiffness 30 N*m/rad\n")) {
+  const std::string dry =
+      "viscous_0 1e-4 N*m*s/rad\ncoulomb_0 0.002 N*m\n"
+      "coulomb_1 0.003 N*m\nstop_stiffness 30 N*m/rad\n";
+  std::vector<Swing> all = swings(dry);
+  for (const Swing& swing :
+       swings(dry + "breakaway_0 0.004 N*m\nstribeck_speed_0 0.1 rad/s\nbreakaway_1 0.006 N*m\n"
+                    "stribeck_speed_1 0.05 rad/s\n"))
+    all.push_back(swing);
+  for (const Swing& swing : all) {
     LinkageDevice device = swing.device;
     device.joints.joint[0].high_rad = static_cast<float>(swing.start.angle_rad[0]) + 0.02f;
     LinkageBody body(device, swing.start);

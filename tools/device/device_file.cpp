@@ -159,6 +159,8 @@ void add_masses(LinkageDevice& device, Keys& to) {
     to.number(of("backlash", k), "rad", 0, 1, joint.backlash_rad, false);
     to.number(of("viscous", k), "N*m*s/rad", 0, 100, joint.viscous_N_m_s, false);
     to.number(of("coulomb", k), "N*m", 0, 100, joint.coulomb_N_m, false);
+    to.number(of("breakaway", k), "N*m", 0, 100, joint.breakaway_N_m, false);
+    to.number(of("stribeck_speed", k), "rad/s", 0, 1000, joint.stribeck_rad_per_s, false);
     to.number(of("amplifier_lag", k), "s", 0, 0.1, joint.lag_s, false);
     to.number(of("ripple", k), "", 0, 1, joint.ripple, false);
     to.number(of("cogging", k), "N*m", 0, 100, joint.cogging_N_m, false);

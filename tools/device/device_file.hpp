@@ -29,7 +29,9 @@ struct JointFriction {
   double backlash_rad = 0;                        // the whole gap
   double viscous_N_m_s = 0;
   double coulomb_N_m = 0;
-  double lag_s = 0;                    // of the amplifier, first order
+  double breakaway_N_m = 0, stribeck_rad_per_s = 0;  // dry friction at rest, and by which rate
+                                                     // a 1 / e of what it is more is left
+  double lag_s = 0;                                  // of the amplifier, first order
   double ripple = 0, cogging_N_m = 0;  // share of the torque, and beside it: amplitudes
   double poles = 0;                    // periods of both in a turn of the joint
 };

@@ -139,6 +139,8 @@ void check_derating(const std::string& name, const GivenKeys& given, const Linka
   }
 }
 
+constexpr double kMinStribeck_rad_per_s = 1e-3;
+
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
 void check_cables(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
   constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
@@ -155,6 +157,22 @@ void check_cables(const std::string& name, const GivenKeys& given, const Linkage
         refuse(name, given, key + end, "needs `poles" + end + "`, its periods in a turn");
     if (joint.backlash_rad > 0 && !(joint.cable_N_m_per_rad > 0))
       refuse(name, given, "backlash" + end, "needs `cable" + end + "`");
+  }
+}
+
+// Stribeck friction falls from that of rest to Coulomb's.
+void check_friction(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const JointFriction& joint = device.masses.joint[k];
+    const std::string end = "_" + std::to_string(k), rest = "breakaway" + end,
+                      speed = "stribeck_speed" + end;
+    if (given.count(rest) == 0 && given.count(speed) != 0)
+      refuse(name, given, speed, "needs `" + rest + "`, the dry friction at rest");
+    if (given.count(rest) == 0) continue;
+    if (!(joint.breakaway_N_m >= joint.coulomb_N_m))
+      refuse(name, given, rest, "needs to be at least `coulomb" + end + "`");
+    if (!(joint.stribeck_rad_per_s >= kMinStribeck_rad_per_s))
+      refuse(name, given, rest, "needs `" + speed + "`, 0.001 rad/s or above");
   }
 }
 
@@ -187,6 +205,7 @@ void complete_and_check(const std::string& name, const GivenKeys& given, Linkage
     refuse_broken(name, given, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));
   }
   check_cables(name, given, device);
+  check_friction(name, given, device);
 }
 
 }  // namespace firmtouch::tools
