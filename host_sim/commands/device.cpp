@@ -180,7 +180,8 @@ cli::Command device_command() {
       "joint's two encoders may differ. continuous_torque_0: of a hot motor (I squared "
       "t).\ncable_0: 0 is rigid. poles_0: periods of "
       "ripple_0 and cogging_0 in a turn.\nbreakaway_0: dry friction at rest; at a rate w it is "
-      "coulomb_0 + (breakaway_0 - coulomb_0) exp(-(w / stribeck_speed_0)^2).\nCentre and inertia "
+      "coulomb_0 + (breakaway_0 - coulomb_0) exp(-(w / stribeck_speed_0)^2).\n"
+      "encoder_noise_0: standard deviation in counts.\nCentre and inertia "
       "of a link are "
       "those of an even rod if not given.\n" +
       machines() +

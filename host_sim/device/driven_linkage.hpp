@@ -16,7 +16,9 @@ class DrivenLinkage {
   const LinkageBody& body() const { return body_; }
   const EnergyBook& energy() const { return is_sprung_ ? book_ : body_.energy(); }
   /// Of the encoder: on the motor, before the cable.
-  int32_t count(uint32_t joint) const { return body_.count_at(joint, rotor(joint).angle_rad); }
+  int32_t count(uint32_t joint, double off_rad = 0) const {
+    return body_.count_at(joint, rotor(joint).angle_rad + off_rad);
+  }
 
   /// Angle of the rotor less that of the joint.
   double twist_rad(uint32_t joint) const;

@@ -10,11 +10,11 @@ namespace firmtouch::host_sim {
 class Arm {
  public:
   /// Steps of `time_s`.
-  Arm(Vec start_m, double time_s)
-      : first_m_(start_m),
-        second_m_(start_m),
-        per_s_(1 / time_s),
-        share_(-std::expm1(-time_s / kLag_s)) {}
+  Arm(Vec start_m, double time_s) : first_m_(start_m), second_m_(start_m) { set_step(time_s); }
+  void set_step(double time_s) {
+    per_s_ = 1 / time_s;
+    share_ = -std::expm1(-time_s / kLag_s);
+  }
   void advance(Vec script_m) {
     first_m_ = first_m_ + (script_m - first_m_) * share_;
     const Vec before = second_m_;
@@ -27,7 +27,7 @@ class Arm {
  private:
   static constexpr double kLag_s = 0.012;
   Vec first_m_, second_m_, velocity_mps_;
-  double per_s_, share_;
+  double per_s_ = 0, share_ = 0;
 };
 
 }  // namespace firmtouch::host_sim

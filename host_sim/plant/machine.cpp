@@ -41,7 +41,8 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
     : zero_m_(zero_m),
       quantum_m_(scenario.device.encoder_quantum_m),
       delay_(scenario.device.output_delay_samples, scenario.device.output_delay_part,
-             1 / scenario.rate_Hz) {
+             1 / scenario.rate_Hz),
+      random_(static_cast<uint64_t>(scenario.seed)) {
   if (scenario.linkage) {
     linkage_.emplace(linkage_at(scenario, start_m, start_));
     device_ = &*scenario.linkage;
@@ -51,6 +52,7 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
     }
     for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
       zero_count_[k] = linkage_->count(k);
+    draw_noise();
   } else {
     DeviceModel prompt = scenario.device;
     prompt.output_delay_samples = 0;
@@ -78,11 +80,21 @@ void Machine::locate() {
   }
 }
 
+void Machine::draw_noise() {
+  for (uint32_t k = 0; k < joint_count() && device_ != nullptr; ++k) {
+    const double counts = device_->masses.joint[k].noise_counts;
+    if (counts > 0)
+      noise_rad_[k] =
+          random_.bell() * counts / static_cast<double>(device_->joints.joint[k].counts_per_rad);
+  }
+}
+
 void Machine::command(const float (&motor)[3], double more_s) {
   pulses_ = 0;
   const Vec wanted{static_cast<double>(motor[0]), static_cast<double>(motor[1]),
                    static_cast<double>(motor[2])};
   const Vec made = after_failures(wanted);
+  draw_noise();
   delay_.command(axes_ ? axes_->limited(made) : made, more_s);
 }
 
@@ -111,7 +123,8 @@ Vec Machine::on_way_to_start_m(const JointMotion& from, double share) const {
 
 uint32_t Machine::true_count(uint32_t joint) const {
   if (axes_) return static_cast<uint32_t>(axes_->count(static_cast<int>(joint)));
-  return static_cast<uint32_t>(linkage_->count(joint)) - static_cast<uint32_t>(zero_count_[joint]);
+  return static_cast<uint32_t>(linkage_->count(joint, noise_rad_[joint])) -
+         static_cast<uint32_t>(zero_count_[joint]);
 }
 
 uint32_t Machine::slip_counts(uint32_t joint) const {

@@ -7,6 +7,7 @@
 #include "host_sim/plant/delay_line.hpp"
 #include "host_sim/plant/device.hpp"
 #include "host_sim/scenario/scenario.hpp"
+#include "surface/random.hpp"
 
 namespace firmtouch::host_sim {
 
@@ -34,7 +35,7 @@ class Machine {
   void advance(Vec hand_N, double time_s);
   Vec position_m() const { return position_m_; }
   Vec velocity_mps() const { return velocity_mps_; }
-  /// Of a linkage that is homed: from 0 where it was switched on.
+  /// With the encoder's noise. Of a linkage that is homed: from 0 where it was switched on.
   int32_t count(int joint) const;
   /// The largest angle by which a joint's encoder has miscounted. 0 of a Cartesian device.
   double encoder_off_rad() const;
@@ -52,6 +53,7 @@ class Machine {
     uint32_t count = 0;  // of its encoder, then
   };
   void locate();
+  void draw_noise();
   bool has_failed(FailureMode mode) const;
   bool has_failed(FailureMode mode, uint32_t joint) const;
   uint32_t joint_count() const { return device_ != nullptr ? device_->joints.joints : 3; }
@@ -73,6 +75,8 @@ class Machine {
   std::optional<Device> axes_;
   std::optional<DrivenLinkage> linkage_;
   DelayLine delay_;
+  tools::Random random_;
+  double noise_rad_[3] = {};  // of encoders, until the next command
   Motor motors_[tools::kJoints];
   double turns_[3] = {};  // whole index periods of a joint
   uint32_t pulses_ = 0;

@@ -29,6 +29,10 @@ const Key kKeys[] = {
      "local models per second; default: one in every tick"},
     {"duration", "s", 0.001, 3600, [](Scenario& s) -> double& { return s.duration_s; },
      "of the run; default: until the hand's script ends"},
+    {"tick_jitter", "", 0, 0.9, [](Scenario& s) -> double& { return s.tick_jitter; },
+     "share of a period by which a tick may be late, by chance"},
+    {"seed", "", 0, 1e9, [](Scenario& s) -> double& { return s.seed; },
+     "of jitter and of encoders' noise"},
     {"controller_clock", "Hz", 1e6, 1e11,
      [](Scenario& s) -> double& { return s.controller_clock_Hz; },
      "instructions a second: a tick's forces act as late as it takes; the\n"

@@ -91,6 +91,8 @@ struct Scenario {
   double rate_Hz = 1000;
   double geometry_rate_Hz = 0;  // 0: every tick makes a local model
   double duration_s = 0;
+  double tick_jitter = 0;          // share of a period by which a tick may be late
+  double seed = 1;                 // of jitter and of encoders' noise
   double controller_clock_Hz = 0;  // instructions a second; 0: a tick takes no time
   DeviceModel device;
   HandModel hand;

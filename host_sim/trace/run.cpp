@@ -19,7 +19,8 @@ namespace {
 constexpr uint32_t kMaxTicks = 1000000000;  // 28 h at 10 kHz; record numbers stay below 2^32
 constexpr uint32_t kSettlingTicks = 5;  // between the last initial parameter and the enable line
 constexpr double kReach_s = 1;          // of the hand, from where a linkage was homed
-constexpr double kMaxWait_s = 10;       // by which homing and reaching lengthen a run
+constexpr uint64_t kJitterStream = 1ull << 40;  // beside that of the encoders' noise
+constexpr double kMaxWait_s = 10;               // by which homing and reaching lengthen a run
 
 constexpr params::Index kCountsPerMetre[3] = {params::kCountsPerMetreX, params::kCountsPerMetreY,
                                               params::kCountsPerMetreZ};
@@ -233,10 +234,11 @@ struct Simulation::Loop {
         machine(scenario, hand.start_m(),
                 {parameter_value(scenario, kOrigin[0]), parameter_value(scenario, kOrigin[1]),
                  parameter_value(scenario, kOrigin[2])}),
-        substeps(machine.substeps(1 / scenario.rate_Hz)),
+        substeps(machine.substeps((1 + scenario.tick_jitter) / scenario.rate_Hz)),
         substep_s(1 / scenario.rate_Hz / substeps),
         arm(hand.start_m(), substep_s),
-        panel(scenario, environment) {
+        panel(scenario, environment),
+        random(static_cast<uint64_t>(scenario.seed) + kJitterStream) {
     if (scenario.hand.mass_kg > 0) palm.emplace(scenario.hand, hand.start_m());
   }
 
@@ -257,7 +259,7 @@ struct Simulation::Loop {
       reach_from = machine.joints();
       reach_left_s = kReach_s;
     }
-    script_s = (before - waited) * period_s;
+    script_s = (before - waited) * period_s + jitter_s;
     if (!is_away() && !(reach_left_s > 0)) return hand.target_m(script_s);
     ++waited;
     if (!is_away()) reach_left_s -= period_s;
@@ -273,9 +275,14 @@ struct Simulation::Loop {
     const double bound = static_cast<double>(params::kInstructionsAUnit * tick_work);
     return (instructions > 0 ? instructions : bound) / scenario.controller_clock_Hz;
   }
-  // From the tick `before` to the next.
-  void move(uint32_t before) {
+  // From the tick `before` to the next, `next_jitter_s` late.
+  void move(uint32_t before, double next_jitter_s) {
+    if (scenario.tick_jitter > 0) {
+      substep_s = (1 / scenario.rate_Hz + next_jitter_s - jitter_s) / substeps;
+      arm.set_step(substep_s);
+    }
     const Vec script_m = this->script_m(before);
+    jitter_s = next_jitter_s;
     for (uint32_t k = 0; k < substeps; ++k) {
       arm.advance(script_m);
       const Vec force_N = hand_N(), from_m = machine.position_m();
@@ -297,6 +304,8 @@ struct Simulation::Loop {
   std::optional<Palm> palm;
   Operator panel;
   record::TickOutput last{};
+  tools::Random random;
+  double jitter_s = 0;  // by which the last tick was late
   float tick_work = params::kTable[params::kTickWork].initial;
   uint32_t last_work_us = 0;
   double hand_J = 0;
@@ -330,10 +339,13 @@ const EnergyBook* Simulation::energy() const { return loop_->machine.energy(); }
 bool Simulation::next(RunTick& tick) {
   Loop& loop = *loop_;
   if (loop.tick == facts_.ticks || facts_.difference) return false;
-  const double period_s = 1 / facts_.rate_Hz, now_s = loop.tick * period_s;
+  const double period_s = 1 / facts_.rate_Hz;
+  double now_s = loop.tick * period_s;
   if (loop.tick > 0) {
     const uint32_t waited = loop.waited;
-    loop.move(loop.tick - 1);
+    const double jitter = loop.scenario.tick_jitter;
+    loop.move(loop.tick - 1, jitter > 0 ? jitter * period_s * loop.random.uniform() : 0);
+    now_s += loop.jitter_s;
     if (loop.waited > waited && facts_.spare_ticks > 0) ++facts_.ticks, --facts_.spare_ticks;
   }
   record::TickRecord& record = tick.record;

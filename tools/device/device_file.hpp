@@ -34,6 +34,7 @@ struct JointFriction {
   double lag_s = 0;                                  // of the amplifier, first order
   double ripple = 0, cogging_N_m = 0;  // share of the torque, and beside it: amplitudes
   double poles = 0;                    // periods of both in a turn of the joint
+  double noise_counts = 0;             // of its encoder: standard deviation
 };
 
 /// What the simulator needs, and the compensation of weight.
