@@ -2,6 +2,7 @@
 
 #include "device/machines.hpp"
 #include "host_sim/commands/commands.hpp"
+#include "host_sim/trace/recorded_hand.hpp"
 #include "host_sim/trace/run.hpp"
 
 namespace firmtouch::host_sim {
@@ -13,7 +14,8 @@ std::string line_of(std::string set) {
   // "1N" is accepted as "1 N".
   const size_t unit = set.find_first_not_of("0123456789.+-eE", equals + 1);
   const std::string key = set.substr(0, equals);
-  const bool is_text = key == "asset" || key == "device" || key == "mesh" || key == "guide";
+  const bool is_text =
+      key == "asset" || key == "device" || key == "hand_log" || key == "mesh" || key == "guide";
   if (!is_text && unit != std::string::npos && unit > equals + 1 && set[unit] != ' ' &&
       set.find(' ', equals + 1) == std::string::npos)
     set.insert(unit, " ");
@@ -24,6 +26,8 @@ Scenario prepared(const std::string& file, const std::string& text,
                   const std::vector<std::string>& sets) {
   Scenario scenario = read_scenario(file, text, sets, parameter_rows());
   complete(scenario);
+  if (!scenario.hand_log.empty())
+    scenario.recorded = recorded_hand(path_beside(file, scenario.hand_log));
   return scenario;
 }
 

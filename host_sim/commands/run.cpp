@@ -187,10 +187,12 @@ int run_scenario(const cli::Arguments& options) {
   for (const char* name : {"--picture", "--log", "--csv"})
     outputs.emplace_back(name, options.text(name));
   std::FILE* const to = summary_stream(options, outputs);
-  check_outputs({{"the scenario", file},
-                 {"the asset", path_beside(file, scenario.asset)},
-                 {"--image", options.text("--image")}},
-                outputs);
+  check_outputs(
+      {{"the scenario", file},
+       {"the asset", path_beside(file, scenario.asset)},
+       {"the recorded hand", scenario.hand_log.empty() ? "" : path_beside(file, scenario.hand_log)},
+       {"--image", options.text("--image")}},
+      outputs);
   const Session session(path_beside(file, scenario.asset), scenario.scene,
                         options.has("--penalty") ? Contact::kPenalty : Contact::kProxy);
   Environment environment = environment_of(*session.controller, scene_origin_m(scenario));

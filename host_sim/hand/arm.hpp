@@ -24,8 +24,9 @@ class Arm {
   Vec position_m() const { return second_m_; }
   Vec velocity_mps() const { return velocity_mps_; }
 
+  static constexpr double kLag_s = 0.012;  // of each
+
  private:
-  static constexpr double kLag_s = 0.012;
   Vec first_m_, second_m_, velocity_mps_;
   double per_s_ = 0, share_ = 0;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_sim/hand/arm.hpp"
+
 namespace firmtouch::host_sim {
 namespace {
 
@@ -26,8 +28,11 @@ Vec between(Vec a, Vec b, double share) { return a + (b - a) * smooth(share); }
 }  // namespace
 
 Hand::Hand(const Scenario& scenario, const Environment& environment, double tool_radius_m)
-    : model_(scenario.hand), environment_(&environment), tool_radius_m_(tool_radius_m) {
-  start_m_ = scenario.start_m;
+    : model_(scenario.hand),
+      recorded_(scenario.recorded),
+      environment_(&environment),
+      tool_radius_m_(tool_radius_m) {
+  start_m_ = recorded_.empty() ? scenario.start_m : recorded_.front().at_m;
   Vec at = start_m_;
   for (const Move& move : scenario.moves) lets_go_ |= move.kind == Move::Kind::kLetGo;
   double now = 0, arc = 0;
@@ -95,7 +100,31 @@ Vec Hand::along(const Phase& phase, double time_s) const {
   return phase.from_m;
 }
 
+// A record lasts until the next one would follow.
+double Hand::end_s() const {
+  const size_t n = recorded_.size();
+  if (n > 1) return 2 * recorded_[n - 1].time_s - recorded_[n - 2].time_s;
+  return phases_.empty() ? 0 : phases_.back().end_s;
+}
+
+// A straight line from sample to sample.
+Vec Hand::recorded_m(double time_s) const {
+  double give_m_per_N = model_.stiffness_N_per_m > 0 ? 1 / model_.stiffness_N_per_m : 0;
+  if (model_.mass_kg > 0 && model_.arm_stiffness_N_per_m > 0)
+    give_m_per_N += 1 / model_.arm_stiffness_N_per_m;
+  const auto target_m = [&](const HandSample& s) { return s.at_m - s.force_N * give_m_per_N; };
+  const auto next =
+      std::upper_bound(recorded_.begin(), recorded_.end(), time_s,
+                       [](double time, const HandSample& s) { return time < s.time_s; });
+  if (next == recorded_.begin()) return target_m(recorded_.front());
+  if (next == recorded_.end()) return target_m(recorded_.back());
+  const HandSample& before = *(next - 1);
+  const double share = (time_s - before.time_s) / (next->time_s - before.time_s);
+  return target_m(before) * (1 - share) + target_m(*next) * share;
+}
+
 Vec Hand::target_m(double time_s) const {
+  if (!recorded_.empty()) return recorded_m(time_s + 2 * Arm::kLag_s);
   for (const Phase& phase : phases_)
     if (time_s < phase.end_s) return along(phase, time_s);
   return phases_.empty() ? start_m_ : along(phases_.back(), phases_.back().end_s);

@@ -14,8 +14,10 @@ class Hand {
   Hand(const Scenario& scenario, const Environment& environment, double tool_radius_m);
 
   /// End of the script; afterwards the target rests.
-  double end_s() const { return phases_.empty() ? 0 : phases_.back().end_s; }
+  double end_s() const;
   Vec start_m() const { return start_m_; }
+  /// Of a recorded hand: what holds the grip where the tool was against the force that was rendered
+  /// there, mass and damping apart. It is ahead by the arm's two lags.
   Vec target_m(double time_s) const;
   /// At a time of the script, with the target where the arm has it.
   Vec force_N(double time_s, Vec target_m, Vec target_mps, Vec position_m, Vec velocity_mps) const;
@@ -31,7 +33,10 @@ class Hand {
   Vec on_guide(const Phase& phase, double time_s) const;
   double grip(double time_s) const;  // 0: open, 1: closed
 
+  Vec recorded_m(double time_s) const;
+
   HandModel model_;
+  std::vector<HandSample> recorded_;
   const Environment* environment_;
   double tool_radius_m_;
   Vec start_m_;

@@ -224,6 +224,9 @@ void Reader::statement(LineReader& words) {
   } else if (name == "device") {
     once(name, words);
     out.device_file = words.path();
+  } else if (name == "hand_log") {
+    once(name, words);
+    out.hand_log = words.path();
   } else if (name == "mesh" || name == "guide") {
     once(name, words);
     (name == "mesh" ? out.scene.surface : out.scene.guide) = words.path();
@@ -256,6 +259,11 @@ void check_axes(const Reader& reader) {
 // The grip is a force that is constant during a substep.
 void check_hand(const Scenario& scenario) {
   const HandModel& hand = scenario.hand;
+  if (!scenario.hand_log.empty() && (!scenario.moves.empty() || scenario.has_start))
+    throw Refused(scenario.file + ": `hand_log` brings its start and its way; leave out `start` " +
+                  "and the hand's script");
+  if (!scenario.hand_log.empty() && hand.stiffening_per_m > 0)
+    throw Refused(scenario.file + ": `hand_stiffening` is of a hand without `hand_log`");
   if (!(hand.mass_kg > 0)) return;
   if (hand.stiffening_per_m > 0)
     throw Refused(scenario.file + ": `hand_stiffening` is of a hand without `hand_mass`");
@@ -269,7 +277,7 @@ void check_hand(const Scenario& scenario) {
 void check_whole(const Scenario& scenario) {
   if (scenario.asset.empty())
     throw Refused(scenario.file + ": it has no asset; add a line such as `asset part.fta`");
-  if (scenario.moves.empty() && !(scenario.duration_s > 0))
+  if (scenario.moves.empty() && scenario.hand_log.empty() && !(scenario.duration_s > 0))
     throw Refused(scenario.file +
                   ": it has neither a `duration` nor a hand script, so no end; add one of them");
 }
@@ -284,8 +292,8 @@ Scenario read_scenario(const std::string& file, const std::string& text,
   reader.out.text = text;
   std::vector<std::string> names;
   for (const Key& key : kKeys) names.emplace_back(key.name);
-  for (const char* name : {"output_delay", "asset", "device", "mesh", "guide", "start", "at",
-                           "hand", "move", "hold", "press", "follow"})
+  for (const char* name : {"output_delay", "asset", "device", "hand_log", "mesh", "guide", "start",
+                           "at", "hand", "move", "hold", "press", "follow"})
     names.emplace_back(name);
   for (const ParameterRow& row : parameters) names.push_back(row.short_name);
   tools::read_lines(
@@ -317,6 +325,9 @@ std::string scenario_help() {
           "  device FILE                       linkage (firmtouch-sim device --help) that is "
           "simulated;\n"
           "                                    the asset was baked with --device FILE\n"
+          "  hand_log FILE.ftl                 recorded run whose hand drives this one, without\n"
+          "                                    `start` and script: the grip's target is where its\n"
+          "                                    tool was, and further by force / stiffness\n"
           "  guide NAME                        curve to use as guide; default: the asset's first\n"
           "  start X Y Z m                     initial position of device and hand\n";
   Scenario defaults;

@@ -26,6 +26,12 @@ struct HandModel {
   double tremor_m = 0, tremor_Hz = 10;
 };
 
+/// A recorded hand: where the tool was, and the force that the controller rendered there.
+struct HandSample {
+  double time_s = 0;  // from 0
+  Vec at_m, force_N;
+};
+
 /// One line of the hand's script; the lines run one after the other.
 struct Move {
   enum class Kind { kHold, kMove, kPress, kFollow, kLetGo, kStartle };
@@ -96,6 +102,8 @@ struct Scenario {
   double controller_clock_Hz = 0;  // instructions a second; 0: a tick takes no time
   DeviceModel device;
   HandModel hand;
+  std::string hand_log;              // path as `asset`; empty: the hand follows its script
+  std::vector<HandSample> recorded;  // read from there
   bool has_start = false;
   Vec start_m;
   std::vector<Setting> settings;
