@@ -253,8 +253,9 @@ void Summariser::add(const RunTick& tick) {
 }
 
 void Summariser::check_certificate(const record::TickOutput& out) {
-  // Without a position, nothing is queried.
-  if ((out.state & record::kStateNotHomed) != 0) return;
+  // Without a position, and after an overload, nothing is queried.
+  if ((out.state & record::kStateNotHomed) != 0 || (out.faults & servo::kFaultOverload) != 0)
+    return;
   if ((out.state & record::kStateReady) == 0 || !used_.is_ready || out.model_sequence == 0) return;
   // Where spheres are held the record does not say where each of them is.
   if (!tool_.is_empty() && (out.state & record::kStateContact) != 0) return;
