@@ -104,7 +104,8 @@ class Joint {
       if (!has_pulse_) pulse_ = latched_;
       has_pulse_ = true;
     }
-    counts_ = count_of(motor_rad_) + static_cast<int32_t>(random_.bits() >> 16 & 1u);
+    counts_ = static_cast<int32_t>(static_cast<uint32_t>(count_of(motor_rad_)) +
+                                   static_cast<uint32_t>(random_.bits() >> 16 & 1u));
   }
   int32_t count_of(double rad) const {
     return static_cast<int32_t>(static_cast<int64_t>(std::floor(rad * counts_per_rad_)) + slip +
@@ -229,7 +230,9 @@ TEST(IndexPulses_SoundJoints_AreNeverOff) {
       }
       if (!bench.tick()) break;
       pulses += bench.joint[0].packed() >> 7;
-      fastest = std::max(fastest, std::fabs(static_cast<double>(bench.joint[0].counts() - before)));
+      const int32_t passed = static_cast<int32_t>(static_cast<uint32_t>(bench.joint[0].counts()) -
+                                                  static_cast<uint32_t>(before));
+      fastest = std::max(fastest, std::fabs(static_cast<double>(passed)));
     }
     CHECK_EQ(ticks, kTicks);
     CHECK_GE(pulses, 4000u);
