@@ -19,6 +19,8 @@ void check(const Baked& baked, double truth, uint32_t work, const curve::Closest
   CHECK_LE(double{certificate.lower_m}, truth * (1 + 1e-15));
   CHECK_GE(double{found.distance_m}, truth - kLost * scale);
   if (certificate.exact) CHECK_LE(double{found.distance_m}, truth + kLost * scale);
+  // What was left would have been used.
+  if (!certificate.exact) CHECK_EQ(certificate.work, std::max(work, 1u));
   CHECK_LE(certificate.work, std::max(work, 1u));
   CHECK_LE(certificate.steps, certificate.work);
 }
@@ -50,6 +52,33 @@ TEST(StarvedQuery_StaysTrue_AtEveryBudget) {
     check(baked, truth, work, closest_point(baked.view, p, Budget{work}, cold));
     check(baked, truth, work, closest_point(baked.view, p, Budget{work}, state.hint));
   });
+}
+
+// From beyond the grid a warm search begins anew; what it used until then counts, too. All segments
+// of a curve that jumps between clusters are near.
+TEST(StarvedQuery_BeyondTheGrid_CountsAllOfItsWork) {
+  std::mt19937 random(5);
+  const auto about = [&](double size) { return size * (2 * curve_test::uniform(random) - 1); };
+  curve_test::Points centres, points;
+  for (int i = 0; i < 6; ++i) centres.push_back(curve_test::point(about(1), about(1), about(1)));
+  for (int i = 0; i < 4000; ++i) {
+    const math::Vec3& c = centres[random() % centres.size()];
+    points.push_back(c + curve_test::point(about(1e-3), about(1e-3), about(1e-3)));
+  }
+  const Baked baked(points);
+  CHECK(baked.view.is_open());
+  uint32_t ran_out = 0;
+  for (uint32_t work = 1; work <= 4 * kMaxWork; work += 3) {
+    test::note("work", work);
+    curve::Hint hint;
+    for (int i = 0; i < 8; ++i) {
+      const math::Vec3 p = curve_test::point(about(1.6), about(1.6), about(1.6));
+      const curve::Closest found = closest_point(baked.view, p, Budget{work}, hint);
+      check(baked, curve_test::brute_distance(baked.samples, p), work, found);
+      ran_out += found.certificate.exact ? 0 : 1;
+    }
+  }
+  CHECK_LE(1000u, ran_out);
 }
 
 TEST(StarvedGuide_StaysTrue_AtEveryBudget) {

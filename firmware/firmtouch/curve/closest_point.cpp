@@ -142,11 +142,15 @@ Closest answer_nothing(const View& curve, Hint& hint) {
                                           const Before& before, Hint& hint) {
   if (!math::is_finite(p_m)) return answer_nothing(curve, hint);
   if (!is_near(p_m)) return answer_beyond(curve, p_m, hint);
-  const query::Budget rest{budget.work > before.work ? budget.work - before.work : 1,
-                           budget.band_m};
+  const bool is_left = before.work < budget.work;
+  const query::Budget rest{is_left ? budget.work - before.work : 1, budget.band_m};
   Closest closest = curve.is_smooth() ? min_cost(curve, p_m, kNoPenalty, rest, hint).closest
                                       : answer_straight(curve, p_m, rest, before, hint);
-  if (before.work < budget.work) closest.certificate.work += before.work;
+  uint32_t& work = closest.certificate.work;
+  if (is_left)
+    work += before.work;
+  else if (work < before.work)
+    work = before.work;
   return closest;
 }
 
