@@ -1,4 +1,5 @@
 #pragma once
+#include "firmtouch/controller/device_with_part.hpp"
 #include "firmtouch/controller/homed_device.hpp"
 #include "firmtouch/device/index_pulses.hpp"
 
@@ -8,33 +9,16 @@ namespace firmtouch {
 /// file). They make homing exact. Once it is homed, a pulse at another count is an encoder fault in
 /// its tick, and none where one is due in the third tick. It lasts until reset(), or until the
 /// linkage is homed anew.
-class IndexedDevice : public HomedDevice {
+class IndexedDevice : public DeviceWithPart<HomedDevice, device::IndexPulses, device::IndexState,
+                                            device::before_index_pulses> {
  public:
   static constexpr bool kComparesEncoders = true, kHasIndexPulses = true;
 
-  void close() {
-    HomedDevice::close();
-    index_ = {};
-  }
   template <class Trust>
   asset::Progress work(State& state, uint32_t units) {
-    const core::Bytes whole = section_;
-    section_ = device::before_index_pulses(whole);
-    asset::Progress progress = HomedDevice::work<Trust>(state, units);
-    section_ = whole;
-    if (progress.verdict.ok() && homing_.is_open())
-      progress.verdict = device::open(whole, linkage_, homing_, index_);
-    if (!progress.verdict.ok()) close();
-    return progress;
-  }
-
-  void reset() {
-    HomedDevice::reset();
-    index_state_ = {};
-  }
-  void continue_as(const IndexedDevice& other) {
-    HomedDevice::continue_as(other);
-    index_state_ = other.index_state_;
+    return work_by<Trust>(state, units, [this](core::Bytes section) {
+      return homing_.is_open() ? device::open(section, linkage_, homing_, part_) : core::kPassed;
+    });
   }
 
   bool encoders_agree(const device::Sample& sample, uint32_t flags);
@@ -42,11 +26,9 @@ class IndexedDevice : public HomedDevice {
   bool push(const params::Values& values, const Push& push, servo::GuardState& guard,
             record::TickOutput& output);
 
-  const device::IndexPulses& index_pulses() const { return index_; }
+  const device::IndexPulses& index_pulses() const { return part_; }
 
  private:
-  device::IndexPulses index_;
-  device::IndexState index_state_;
   uint32_t pulses_ = 0;  // of this tick, while it is homed
   int32_t latched_[device::kMaxJoints] = {};
 };
