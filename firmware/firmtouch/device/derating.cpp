@@ -12,7 +12,7 @@ using core::reject;
 // From cold to the continuous torque's heat by the largest torque, about.
 constexpr float kMinWarming_s = 0.1f;
 constexpr float kMaxTime_s = 1e4f;
-constexpr float kFadesFrom = 4;  // 1 / the share of the heat in which the limit falls
+constexpr float kFadingShare = 0.25f;  // of the heat, in which the limit falls
 
 // Index pulses need homing: without it their size would be that of homing with second encoders.
 bool is_before(uint32_t size) {
@@ -69,7 +69,7 @@ void heat(HeatState& state, const Derating& derating, const StoredLinkage& linka
         (load * load - before) * (step_s / (derating.layout().time_s[k] + step_s)) + state.below[k];
     state.heat[k] = before + change;
     state.below[k] = change - (state.heat[k] - before);
-    const float above = clamp((1.0f - state.heat[k]) * kFadesFrom, 0.0f, 1.0f);
+    const float above = clamp((1.0f - state.heat[k]) * (1 / kFadingShare), 0.0f, 1.0f);
     most_Nm[k] = continuous_Nm + (most_Nm[k] - continuous_Nm) * above;
   }
 }

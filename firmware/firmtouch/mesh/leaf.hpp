@@ -57,7 +57,7 @@ struct Rivals {
     count = 0;
     rest_m = FLT_MAX;
   }
-  // Pre: count <= kMax. Behind it: let_go().
+  // Pre: count <= kMax. The caller then calls let_go().
   void add(uint32_t triangle, Feature feature, float distance2) {
     foot[count] = static_cast<uint32_t>(feature) << 24 | triangle;
     distance2_m2[count++] = distance2;
@@ -65,7 +65,7 @@ struct Rivals {
   void let_go() {
     if (count > kMax) let_last_go();
   }
-  // Keeps a bound alone, by its own longest edge.
+  // Of the ninth only a bound is kept, by its own longest edge.
   [[gnu::noinline, gnu::cold]] void let_last_go() {
     count = kMax;
     const Triangle<uint32_t> last = mesh->triangle(triangle(kMax));
@@ -190,7 +190,7 @@ static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
 }
 
 /// Takes a foot below rivals.limit2_m2() as the nearest, or as a rival. `ab_m`: the longest edge.
-/// Result: whether it is the nearest. Behind it: rivals.let_go().
+/// Result: whether it is the nearest. The caller then calls rivals.let_go().
 [[gnu::noinline]] inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle,
                                         uint32_t slot, Best& best, Rivals& rivals) {
   ++rivals.owed;
