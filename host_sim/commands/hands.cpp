@@ -27,7 +27,7 @@ std::string json_of(const KnownHand& hand) {
     for (const HandKey& key : hand_keys()) values.add(key.name, model.*key.member);
     all.add(grip.name, values.object());
   }
-  return all.add("is_assumed", true).object();
+  return all.add("assumed", tools::json_text(hand.assumed)).object();
 }
 
 int print_hands(const cli::Arguments& options) {
@@ -37,6 +37,7 @@ int print_hands(const cli::Arguments& options) {
   }
   for (const KnownHand& hand : known_hands()) {
     std::printf("%s: %s\n", hand.name, hand.form);
+    std::printf("  assumed: %s\n", hand.assumed);
     std::printf("  %-5s", "");
     for (const HandKey& key : hand_keys()) std::printf(" %18s", key.name);
     for (const double frequency_Hz : kFrequencies_Hz) std::printf(" %3.0f Hz", frequency_Hz);
@@ -53,7 +54,7 @@ int print_hands(const cli::Arguments& options) {
   std::printf(
       "N/m, N*s/m, kg; the last columns: force over amplitude of a grip that moves by a sine, in "
       "N/m.\n"
-      "Every value is assumed: the forms are those of the publications, their figures are not.\n");
+      "What is assumed is of the publication's form, but not its figure.\n");
   return 0;
 }
 

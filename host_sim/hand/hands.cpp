@@ -26,16 +26,25 @@ const std::vector<KnownHand>& known_hands() {
       {"pinch",
        "a mass with spring and damper, both of which rise with the grip (Hasser & Cutkosky 2002, "
        "System identification of the human hand grasping a haptic knob); its grip is stiff",
-       made(3000, 3, 0.015, 150, 1), made(3000, 4, 0.02, 400, 3), made(3000, 6, 0.025, 1000, 6)},
+       "every value", made(3000, 3, 0.015, 150, 1), made(3000, 4, 0.02, 400, 3),
+       made(3000, 6, 0.025, 1000, 6)},
       {"stylus",
        "one that yields in series with mass, spring and damper (Fu & Cavusoglu 2012, "
        "Human-arm-and-hand-dynamic model with variability analyses for a stylus-based haptic "
        "interface: 15 people, 1 to 3 N)",
-       made(300, 2, 0.05, 80, 2), made(700, 4, 0.1, 200, 4), made(1500, 8, 0.15, 500, 8)},
+       "every value", made(300, 2, 0.05, 80, 2), made(700, 4, 0.1, 200, 4),
+       made(1500, 8, 0.15, 500, 8)},
       {"arm",
        "five parameters: grip, mass, arm (Speich, Shao & Goldfarb 2005, Modeling the human hand as "
        "it interacts with a telemanipulation system)",
-       made(500, 5, 0.3, 80, 6), made(1200, 12, 0.6, 250, 15), made(3000, 25, 1.2, 700, 30)}};
+       "every value", made(500, 5, 0.3, 80, 6), made(1200, 12, 0.6, 250, 15),
+       made(3000, 25, 1.2, 700, 30)},
+      {"handle",
+       "mass, spring and damper of an arm that holds a handle (van Beek, Bergmann Tiest, Mugge & "
+       "Kappers 2015, Haptic perception of force magnitude and its relation to postural arm "
+       "dynamics in 3D, Sci. Rep. 5:18004, figure 3: one trial of one person); its grip is stiff",
+       "the grip: hand_stiffness, hand_damping", made(1500, 8, 0.554, 135, 6.45),
+       made(3000, 12, 0.554, 135, 6.45), made(6000, 25, 0.554, 135, 6.45)}};
   return all;
 }
 

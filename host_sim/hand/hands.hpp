@@ -6,10 +6,11 @@
 
 namespace firmtouch::host_sim {
 
-/// A hand of the kind that a publication identified. Only the form of its model is from there:
-/// every value is assumed, since none could be read in its source.
+/// A hand of the kind that a publication identified. Where its values could not be read there, only
+/// the form of its model is from it.
 struct KnownHand {
   const char *name, *form;
+  const char* assumed;         // which of the values
   HandModel weak, mean, firm;  // of a grip; the spread of its source's people is not known here
 };
 
@@ -17,7 +18,7 @@ const std::vector<KnownHand>& known_hands();
 
 /// Name and grip: "pinch", "weak", "mean" or "firm". Result: null if there is none.
 const HandModel* find_hand(const std::string& name, const std::string& grip);
-/// "pinch, stylus, arm"
+/// "pinch, stylus, arm, handle"
 std::string hand_names();
 
 /// The keys of a scenario that a hand stands for, with its values.

@@ -114,7 +114,7 @@ TEST(Scenario_Hand_IsFiveKeysOrRefused) {
                   &firm = *find_hand("stylus", "firm");
   for (const HandKey& key : hand_keys())
     CHECK(!(hand.*key.member < firm.*key.member) && !(hand.*key.member > firm.*key.member));
-  CHECK(refusal_of("hand stylus tight\n").find("pinch, stylus, arm") != std::string::npos);
+  CHECK(refusal_of("hand stylus tight\n").find("pinch, stylus, arm, handle") != std::string::npos);
   CHECK(refusal_of("hand stylus\n").find("a grip") != std::string::npos);
   CHECK(refusal_of("hand arm mean\nhand_mass 1 kg\n").find("twice") != std::string::npos);
   CHECK(refusal_of("hand arm mean\nhand_stiffening 10 1/m\n").find("without") != std::string::npos);
