@@ -36,6 +36,7 @@ int run_bench(const Arguments& arguments) {
     if (std::find(std::begin(kOfTheSimulator), std::end(kOfTheSimulator), name) !=
         std::end(kOfTheSimulator))
       fail_usage("bench: '" + name + "' is run as `firmtouch-sim bench " + name + "`");
+    if (name == "device") fail_usage("bench: devices are measured by `firmtouch-sim device NAME`");
     if (std::find(std::begin(kOfTheLab), std::end(kOfTheLab), name) == std::end(kOfTheLab)) break;
     fail_usage("bench: '" + name + "' is now run as `firmtouch-lab " + name +
                "`; build it with cmake --preset host -DFIRMTOUCH_LAB=ON");
