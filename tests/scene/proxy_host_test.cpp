@@ -277,6 +277,28 @@ TEST(Proxy_VisitsThatDoNotSuffice_AreReportedInTheSameTick) {
   CHECK_EQ(silent, 0u);
 }
 
+// A part hundreds of its sizes from the origin: a tool stood, wherever its hand went.
+TEST(Proxy_FreeRadiusOfTheSizeOfRounding_IsReported) {
+  const scene::SphereTouched far{{2.1f, -0.25f, 0}, 0.005f};
+  scene::ProxySettings settings;
+  settings.radius_m = 0.0001f;
+  uint32_t stuck = 0, silent = 0;
+  for (float k = 0; k < 2000; ++k) {
+    scene::Proxy proxy;
+    const Vec3 out{std::cos(0.0031f * k), std::sin(0.0031f * k), 0};
+    const Vec3 hand_m = far.centre_m + out * (0.005f + 1e-9f * k);
+    const Vec3 away_m = hand_m + out * 0.001f;
+    scene::ProxyMoved moved;
+    for (int tick = 0; tick < 20; ++tick)
+      moved = scene::move_proxy(settings, tick == 0 ? hand_m : away_m, far, proxy);
+    if (ProxyRig::distance(proxy.position_m, away_m) < 1e-6) continue;
+    ++stuck;
+    silent += !moved.is_starved;
+  }
+  CHECK_GE(stuck, 1u);
+  CHECK_EQ(silent, 0u);
+}
+
 // A last query that finds a place within the clearance is not the last of the tick if that place is
 // refused: the tool stood for 24 ticks with all work, for 222 with little.
 TEST(Proxy_LastQueryWithinTheClearance_IsTaken) {

@@ -244,10 +244,12 @@ bool ProxyMove::aim() {
     return false;
   }
   if (moved_.queries == kMaxQueries) return false;
-  // Within the ball that is certainly free. Refused: the free radius is of the size of rounding.
-  if (!(math::length(trial_m_ - proxy_.position_m) * kUp < proxy_.free_m)) return false;
-  is_over_ = false;
-  return true;
+  // Within the ball that is certainly free. Where its radius is of the size of rounding, the tool
+  // may stand for ever.
+  const float step_m = math::length(trial_m_ - proxy_.position_m) * kUp;
+  is_over_ = !(step_m < proxy_.free_m) || (!(step_m > 0.0f) && !moved_.is_optimal);
+  if (is_over_) moved_.is_starved = true;
+  return !is_over_;
 }
 
 // Result: false if it was known, and its plane, too.
