@@ -146,6 +146,28 @@ TEST(AFinelyCutConeIsProven) {
   CHECK_GT(proof.vertices.smallest_rad, 0.4);  // atan(0.5) at the tip, less what thinning takes
 }
 
+// The rim of a cylinder, where a flat cap is a fan of thousands of triangles: beyond the fan lies
+// one edge of the wall, and without it the cone would have the cap's lower side, too.
+TEST(FanInAFlatFace_HasTheConeOfItsRim) {
+  for (const int n : {70, 999, 2000, 20000}) {
+    std::vector<tools::StarEdge> fan;
+    for (int k = 0; k <= n; ++k) {
+      const bool is_rim = k == 0 || k == n;
+      fan.push_back({{std::cos(M_PI * k / n), std::sin(M_PI * k / n), 0},
+                     is_rim ? Point{0, -1, 1} : Point{0, 0, 2}});
+    }
+    for (int at = 0; at < n; at += n / 5 + 1) {
+      test::note("edges", n);
+      test::note("edge of the wall", at);
+      std::vector<tools::StarEdge> star = fan;
+      star.insert(star.begin() + at, tools::StarEdge{{0, 0, -1}, {0, -2, 0}});
+      const std::vector<tools::SideRay> rays = tools::extreme_rays(star);
+      const double sine = tools::vertex_margin(rays, unit({0, -1, 1}));
+      CHECK_LE(std::fabs(sine - std::sqrt(0.5)), 1e-9);
+    }
+  }
+}
+
 TEST(NanMargin_IsTheWorst) {
   const double nan = std::nan("");
   CHECK_LE(tools::vertex_margin({{{0, 0, 1}, 1}}, {0, 0, nan}), -1.0);

@@ -9,7 +9,10 @@ namespace {
 // Edges less askew than this are taken for one line; gaps short of a half turn by this and by the
 // rounding of what bounds them are taken for a half turn.
 constexpr double kOneLine = 1e-13, kGapSlack = 1e-12, kRounding = 1e-15;
-constexpr size_t kMaxEdges = 1000;
+// The cone of so many edges takes no selection; of more the selection ends at kMaxEdges.
+constexpr size_t kFewEdges = 64, kMaxEdges = 1000;
+// Sine by which a ray may be in front of an edge that was not selected.
+constexpr double kInFront = 1e-12;
 
 // Grows with the angle from 0 to 4; a half turn is 2 everywhere. No arc tangent: what is chosen by
 // it goes into assets, and must be the same on every machine.
@@ -25,25 +28,13 @@ Point square_to(Point e) {
   return across * (1 / length(across));
 }
 
-// Every k-th edge, so that the tip of a finely cut cone takes no hours. Fewer edges leave a wider
-// cone: the margin is never reported too large.
-std::vector<StarEdge> thinned(const std::vector<StarEdge>& star) {
-  std::vector<StarEdge> few;
-  const size_t step = (star.size() + kMaxEdges - 1) / kMaxEdges;
-  for (size_t k = 0; k < star.size(); k += step) few.push_back(star[k]);
-  return few;
-}
-
-}  // namespace
-
-std::vector<SideRay> extreme_rays(const std::vector<StarEdge>& whole) {
+std::vector<SideRay> rays_of(const std::vector<StarEdge>& star) {
   struct Bar {
     double turn, x, y;  // of an edge, seen along the edge at hand
     double doubt;       // of its turn
   };
   std::vector<SideRay> rays;
   std::vector<Bar> bars;
-  const std::vector<StarEdge> star = whole.size() > kMaxEdges ? thinned(whole) : whole;
   for (const StarEdge& edge : star) {
     const Point right = square_to(edge.direction), up = cross(edge.direction, right);
     bars.clear();
@@ -66,6 +57,52 @@ std::vector<SideRay> extreme_rays(const std::vector<StarEdge>& whole) {
     }
   }
   return rays;
+}
+
+// The edge that is most askew to the first.
+size_t most_askew(const std::vector<StarEdge>& star) {
+  const auto it = std::max_element(star.begin(), star.end(), [&](const auto& a, const auto& b) {
+    return length(cross(a.direction, star[0].direction)) <
+           length(cross(b.direction, star[0].direction));
+  });
+  return static_cast<size_t>(it - star.begin());
+}
+
+// Selects the edge that is farthest beyond each ray. Result: whether there were any.
+bool select_beyond(const std::vector<SideRay>& rays, const std::vector<StarEdge>& whole,
+                   std::vector<bool>& is_selected) {
+  bool is_any = false;
+  for (const SideRay& ray : rays) {
+    double farthest = kInFront;
+    size_t at = whole.size();
+    for (size_t k = 0; k < whole.size(); ++k) {
+      const double beyond = dot(whole[k].direction, ray.direction);
+      if (beyond > farthest) farthest = beyond, at = k;
+    }
+    if (at == whole.size() || is_selected[at]) continue;
+    is_selected[at] = is_any = true;
+  }
+  return is_any;
+}
+
+}  // namespace
+
+// The cone of some edges is too wide where a ray of it is beyond another edge: that edge is then
+// selected, too. So a fan in a flat face, of any number of edges, needs few of them.
+std::vector<SideRay> extreme_rays(const std::vector<StarEdge>& whole) {
+  if (whole.size() <= kFewEdges) return rays_of(whole);
+  std::vector<bool> is_selected(whole.size());
+  const size_t step = (whole.size() + kFewEdges - 1) / kFewEdges;
+  for (size_t k = 0; k < whole.size(); k += step) is_selected[k] = true;
+  // Edges of one line have no rays.
+  is_selected[most_askew(whole)] = true;
+  for (;;) {
+    std::vector<StarEdge> star;
+    for (size_t k = 0; k < whole.size(); ++k)
+      if (is_selected[k]) star.push_back(whole[k]);
+    const std::vector<SideRay> rays = rays_of(star);
+    if (star.size() > kMaxEdges || !select_beyond(rays, whole, is_selected)) return rays;
+  }
 }
 
 double vertex_margin(const std::vector<SideRay>& rays, Point normal) {

@@ -26,7 +26,8 @@ struct SideRay {
 ///
 /// Each extreme ray is square to an edge and lies in the wedge that this edge alone would see, so
 /// that its side is that edge's: no property of vertex pseudonormals is used.
-/// Bounds: O(n^2 log n) for n edges; of more than 1,000 some are left out, which widens the cone.
+/// Bounds: O(m^2 log m + m n) a round for n edges, m of them on the cone; from m = 1,000 on
+///         some are left out, which widens the cone.
 std::vector<SideRay> extreme_rays(const std::vector<StarEdge>& star);
 
 /// Sine of the margin of `normal` (unit) over the rays; 1 where there are none, -1 where the normal
