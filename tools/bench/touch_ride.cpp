@@ -69,6 +69,13 @@ struct Tool {
   explicit Tool(TouchSubject& of) : subject(of) { subject.begin(); }
 
   bool is_free() const { return proxy.phase == scene::Proxy::Phase::kFree; }
+  // Whether the surface keeps it from the hand. Else the hand is only ahead of it: so is one that
+  // came out of the part, of a tool that begins small on the surface.
+  bool is_pressed(Vec3 hand_m) const {
+    return is_free() && proxy.is_loaded &&
+           (subject.is_crossed(proxy.position_m, hand_m) ||
+            subject.distance_m(tools::to_point(hand_m)) < wide(proxy.radius_m));
+  }
 
   // Counts the moves of a certified proxy, and those that met the surface.
   void tick(Vec3 hand_m) {
@@ -162,8 +169,9 @@ Leaving leave(TouchSubject& subject, uint64_t seed) {
   for (uint32_t i = 0; i < 2000 && !(tool.is_free() && tool.proxy.is_loaded); ++i)
     tool.tick(hand_m = hand.next());
   if (!tool.is_free() || !tool.proxy.is_loaded) return leaving;
-  leaving.is_contact = true;
   for (uint32_t i = 0; i < 3; ++i) tool.tick(hand_m = hand.next());
+  leaving.is_contact = tool.is_pressed(hand_m);
+  if (!leaving.is_contact) return leaving;
   tool.settings.budget.work = 20;
   const Vec3 out_m = tool.proxy.position_m - hand_m;
   uint32_t uncertain = 0;
