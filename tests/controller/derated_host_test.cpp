@@ -1,5 +1,6 @@
 // Motors of an arm that is held in a wall get hot: their heat is integrated in double from the
-// torques of the record. The limits fall with it, smoothly, and a log replays.
+// torques of the record. The limits fall with it, smoothly, and a log replays. Where a device fails
+// to derate, the guard stops it.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -7,6 +8,7 @@
 #include "controller/joints_rig.hpp"
 #include "firmtouch/controller/derated_device.hpp"
 #include "firmtouch/device/rules.hpp"
+#include "harness/random.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 using namespace controller_test;
@@ -202,6 +204,102 @@ TEST(DeratedDevice_WeightAlone_FallsWithTheLimit) {
   const double a = 3.6 * part, c = .9 + a;
   const double held = (std::sqrt(1 + 4 * a * c) - 1) / (2 * a);  // where x = (torque / c)^2
   CHECK_LE(std::fabs(rig.motor_Nm(1) - held * kContinuous_Nm), 1e-3);
+}
+
+namespace {
+
+// Its memory is the test's to break.
+struct BrokenDevice : DeratedDevice<AnyDevice> {
+  using DeratedDevice::before_Nm_, DeratedDevice::part_state_;
+};
+bool is_zero(float value) { return !(value < 0 || value > 0); }
+struct BrokenRig : Rig<BrokenDevice> {
+  explicit BrokenRig(const Asset& asset) : Rig(asset) {}
+  BrokenDevice& device() { return const_cast<BrokenDevice&>(controller.device()); }
+  // Result: whether the guard stopped it.
+  template <class Break>
+  bool push(int ticks, const Break& breaks) {
+    for (int i = 0; i < ticks; ++i) {
+      breaks(device());
+      tick(true, true);
+      if ((output.faults & servo::kFaultGuard) == 0) continue;
+      for (int k = 0; k < 3; ++k) CHECK(is_zero(output.motor_N[k]) && is_zero(output.force_N[k]));
+      return true;
+    }
+    return false;
+  }
+};
+
+}  // namespace
+
+// It takes each motor for cold: the guard ends it before a winding is 10 % too hot.
+TEST(DeratedDevice_ThatStaysCold_IsStoppedByTheGuard) {
+  for (const bool carries : {false, true}) {
+    const Asset& asset = carries ? carrying() : pushing();
+    for (const int rest : {1, 300, 3000}) {
+      BrokenRig rig(asset);
+      for (int i = 0; i < rest; ++i) rig.tick(false, false);
+      CHECK(rig.push(5000, [](BrokenDevice& it) { it.part_state_ = {{0, 0, 0}, {}}; }));
+      CHECK_GE(rig.most_heat, 1.05);
+      CHECK_LE(rig.most_heat, 1.07);
+      for (int i = 0; i < 200; ++i) rig.tick(true, i % 20 > 9);  // nobody clears the fault
+      CHECK_LE(rig.most_heat, 1.07);
+    }
+  }
+}
+
+// The shortest thermal times that R720 admits, ticks that come late, and every limit used whole.
+TEST(DeratedDevice_ThatDerates_IsNeverStoppedByTheGuard) {
+  test::Lcg random(3);
+  for (const float tick_s : {5e-5f, 1e-3f, 6e-3f, .02f}) {
+    for (const float ratio : {1.02f, 1.1f, 1.5f, 4.f, 20.f}) {
+      Section section = arm();
+      for (int k = 0; k < 3; ++k) {
+        section.derating.continuous_Nm[k] = section.linkage.max_torque_Nm[k] / ratio;
+        section.derating.time_s[k] = .1001f * ratio * ratio;
+      }
+      const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&section), sizeof section);
+      device::StoredLinkage linkage;
+      device::Derating derating;
+      CHECK_EQ(open({bytes.data(), sizeof section.linkage}, linkage).rule, 0u);
+      CHECK_EQ(open(bytes, linkage, derating).rule, 0u);
+      device::HeatState state;
+      servo::GuardState guard;
+      servo::HeatGuard heat;
+      CHECK(servo::guard_set_limits(guard, {8, 5000, tick_s}));
+      servo::set_heat(heat, section.derating.continuous_Nm, section.derating.time_s);
+      float torque_Nm[3] = {}, most_Nm[3], late_s = 0;
+      uint32_t stopped = 0;
+      for (int tick = 0; tick < 100000; ++tick) {
+        const float later_s = tick_s * random.between(0, .2f);
+        device::heat(state, derating, linkage, torque_Nm, tick_s + later_s - late_s, most_Nm);
+        late_s = later_s;
+        for (int k = 0; k < 3; ++k)
+          torque_Nm[k] = tick % 7000 < 2000 * k ? 0 : tick % 2 == 0 ? most_Nm[k] : -most_Nm[k];
+        stopped += !servo::guard_heat(guard, heat, torque_Nm);
+      }
+      CHECK_EQ(stopped, 0u);
+    }
+  }
+}
+
+TEST(DeratedDevice_BitsThatStandInItsMemory_DoNotHeatItBeyond) {
+  uint32_t stopped = 0;
+  constexpr uint32_t kState = sizeof(device::HeatState), kAll = kState + 12;
+  for (uint32_t bit = 0; bit < 8 * kAll; ++bit) {
+    for (const bool is_set : {false, true}) {
+      BrokenRig rig(pushing());
+      stopped += rig.push(800, [&](BrokenDevice& it) {
+        uint8_t* const bytes = bit / 8 < kState
+                                   ? reinterpret_cast<uint8_t*>(&it.part_state_) + bit / 8
+                                   : reinterpret_cast<uint8_t*>(it.before_Nm_) + bit / 8 - kState;
+        const uint8_t mask = static_cast<uint8_t>(1u << (bit % 8));
+        *bytes = static_cast<uint8_t>(is_set ? *bytes | mask : *bytes & ~mask);
+      });
+      CHECK_LE(rig.most_heat, 1.07);
+    }
+  }
+  CHECK_GE(stopped, 3u);
 }
 
 TEST(DeratedDevice_WithoutThermalLimits_HasTheBitsOfItsBase) {

@@ -69,6 +69,7 @@ class AnyDevice : public DevicePolicy {
   core::Bytes section_;
   device::StoredLinkage linkage_;
   float before_Nm_[device::kMaxJoints] = {};  // torques of the last tick
+  Rendered rendered_;
 
  private:
   void carry(const params::Values& values, bool is_on, const float* largest_Nm,
@@ -87,7 +88,6 @@ class AnyDevice : public DevicePolicy {
   float angle_rad_[device::kMaxJoints] = {};
   float weight_Nm_[device::kMaxJoints] = {};  // torques that carried it in the last tick
   float carried_ = 0;                         // share of the weight, from 0 to 1
-  Rendered rendered_;
   uint32_t fast_ticks_ = 0;
 };
 

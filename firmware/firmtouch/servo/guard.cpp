@@ -163,6 +163,60 @@ Forces begin_guard(GuardState& state, const GuardLimits& limits, bool may_push, 
   return is_good;
 }
 
+uint32_t mantissa_of(uint32_t word) { return (word & 0x7FFFFFu) | 0x800000u; }
+
+// The torque in a unit in which the continuous one is from 2^11 to 2^12; 2^21 if it is that or
+// more, and for NaN. Pre: `continuous` is a float of 2^-126 to 2^10.
+uint32_t load_of(float motor_Nm, uint32_t continuous) {
+  const uint32_t word = word_of(motor_Nm) & 0x7FFFFFFFu;
+  const int32_t larger =  // by a power of 2
+      static_cast<int32_t>(word >> 23) - static_cast<int32_t>(continuous >> 23);
+  if (larger > 9) return 1u << 21;
+  if (larger < -11 || (word >> 23) == 0) return 0;
+  return mantissa_of(word) >> (12 - larger);
+}
+
+// 1 / time in units of 2^-28 / s; 0 if it is not of 1/16 to 2^14 s. Time = mantissa *
+// 2^(exponent - 142), and inverse = 2^32 / mantissa is below 2^17.
+uint32_t rate_of(float time_s) {
+  const uint32_t word = word_of(time_s), exponent = word >> 23;
+  if (exponent < 123 || exponent > 140) return 0;
+  const uint32_t inverse = UINT32_MAX / (mantissa_of(word) >> 8);
+  return exponent <= 138 ? inverse << (138 - exponent) : inverse >> (exponent - 138);
+}
+
+bool remembers(const HeatGuard& heat, uint32_t k) {
+  return heat.value.continuous[k] == ~heat.complement.continuous[k] &&
+         heat.value.rate[k] == ~heat.complement.rate[k] &&
+         heat.value.heat[k] == ~heat.complement.heat[k];
+}
+
+// Heat is in units of 2^-28 squares of torque, shares in units of 2^-40. No product overflows:
+// torque < 2^21, share <= 2^38, rise < 2^41; heat < 2^53, since it is at most what may be.
+bool may_heat(HeatGuard& heat, uint32_t k, float motor_Nm, uint32_t period) {
+  if (!remembers(heat, k)) return false;
+  const uint32_t continuous = heat.value.continuous[k], rate = heat.value.rate[k];
+  if (continuous == 0) return true;
+  if ((continuous >> 23) == 0 || continuous > word_of(kGuardMaxTorque_Nm) || rate == 0)
+    return false;
+  const uint32_t torque = load_of(motor_Nm, continuous), unit = mantissa_of(continuous) >> 12;
+  if (torque >= (1u << 21)) return false;
+  constexpr uint64_t kMaxShare = uint64_t{1} << 38;
+  const uint64_t even = (uint64_t{period} * rate) >> 16;
+  const uint64_t early = even < kMaxShare ? even : kMaxShare;
+  // Not above that of a backward step, early / (1 + early), by which the device counts.
+  const uint32_t root = static_cast<uint32_t>(early >> 20);
+  const uint64_t share = early - uint64_t{root} * root;
+  const uint64_t rise = (torque * share) >> 12;
+  if (rise >= (uint64_t{1} << 41)) return false;
+  const uint64_t before = heat.value.heat[k];
+  const uint64_t after = before + rise * torque - (((before >> 28) * share) >> 12);
+  if (torque != 0 && after > uint64_t{unit * unit * 17} << 24) return false;
+  heat.value.heat[k] = after;
+  heat.complement.heat[k] = ~after;
+  return true;
+}
+
 }  // namespace
 
 [[gnu::cold]] bool guard_set_limits(GuardState& state, const GuardLimits& limits) {
@@ -205,6 +259,30 @@ void set_ceilings(TorqueCeilings& ceilings, const float (&max_torque_Nm)[kGuarde
   const bool is_good =
       now.is_good && (now.is_zero || is_in_ceilings(state, limits, ceilings, now.force));
   return end_guard(state, now, is_good, motor_Nm);
+}
+
+[[gnu::cold]] void set_heat(HeatGuard& heat, const float (&continuous_Nm)[kGuardedMotors],
+                            const float (&time_s)[kGuardedMotors]) {
+  for (uint32_t k = 0; k < kGuardedMotors; ++k) {
+    HeatGuard::Copy& value = heat.value;
+    value.continuous[k] = word_of(continuous_Nm[k]);
+    value.rate[k] = rate_of(time_s[k]);
+    const uint32_t unit = mantissa_of(value.continuous[k]) >> 12;
+    value.heat[k] = uint64_t{unit * unit} << 28;
+    heat.complement.continuous[k] = ~value.continuous[k];
+    heat.complement.rate[k] = ~value.rate[k];
+    heat.complement.heat[k] = ~value.heat[k];
+  }
+}
+
+[[gnu::cold]] bool guard_heat(GuardState& state, HeatGuard& heat,
+                              float (&motor_Nm)[kGuardedMotors]) {
+  const float period_s = guard_limits(state).tick_period_s;
+  bool is_good = is_up_to(period_s, kGuardMaxPeriod_s);
+  const uint32_t period = is_good ? static_cast<uint32_t>(fixed_point(period_s, 28)) : 0;
+  for (uint32_t k = 0; k < kGuardedMotors; ++k)
+    is_good = may_heat(heat, k, motor_Nm[k], period) && is_good;
+  return is_good || end_guard(state, {}, false, motor_Nm);
 }
 
 [[gnu::cold]] void guard_clear(GuardState& state) {

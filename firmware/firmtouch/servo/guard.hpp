@@ -70,6 +70,30 @@ void set_ceilings(TorqueCeilings& ceilings, const float (&max_torque_Nm)[kGuarde
 bool guard_torques(GuardState& state, const TorqueCeilings& ceilings, bool may_push, bool cut,
                    float (&motor_Nm)[kGuardedMotors]);
 
+/// Heat of the windings of a linkage's joints by I squared t, from what passes the guard. Kept
+/// twice. By default no torque passes.
+struct HeatGuard {
+  struct Copy {
+    uint32_t continuous[kGuardedMotors] = {};  // bits of the floats; 0: no thermal limit
+    uint32_t rate[kGuardedMotors] = {};        // 1 / thermal time, in units of 2^-28 / s
+    uint64_t heat[kGuardedMotors] = {};        // in units of continuous torque^2 / 2^50 to 2^52
+  };
+  Copy value, complement;
+};
+
+/// When an asset is opened, and after a reset: the torque that each motor may have for ever, and
+/// its winding's thermal time. The windings are hot.
+void set_heat(HeatGuard& heat, const float (&continuous_Nm)[kGuardedMotors],
+              const float (&time_s)[kGuardedMotors]);
+
+/// After guard_torques(), in every tick. With x' = (torque^2 - x) / thermal time it trips, and no
+/// torque passes, where a torque would end the tick with x above 17/16 of the continuous torque's
+/// square. It trips, too, where a limit is not of 0 to kGuardMaxTorque_Nm, a time is not of 1/16 to
+/// 2^14 s, and where a copy differs. A tick counts as tick_period_s, at most a quarter of a time.
+/// Result: false if it stopped a torque.
+/// Error: x within 0.2 % and tick_period_s / (2 time), with torques held during a tick.
+bool guard_heat(GuardState& state, HeatGuard& heat, float (&motor_Nm)[kGuardedMotors]);
+
 /// Arms it again with its limits. If those were corrupted it trips again at once; then only a new
 /// GuardState with its limits set helps.
 void guard_clear(GuardState& state);
