@@ -76,6 +76,11 @@ TEST(DeviceFile_EveryKey_ConvertsToSi) {
       read(kFiveBar + "continuous_torque_1 90 mN*m\nthermal_time_1 5 s\n");
   CHECK(derated.is_derated && near(derated.continuous_Nm[1], .09));
   CHECK(near(derated.thermal_time_s[1], 5));
+  const LinkageDevice driven =
+      read(edited(kFiveBar, "max_torque_1 0.2 N*m", "max_current_1 2500 mA") +
+           "torque_constant_1 80 mN*m/A\ncontinuous_current_1 1.5 A\nthermal_time_1 5 s\n");
+  CHECK(near(driven.limits.max_torque_Nm[1], .2) && near(driven.limits.max_torque_Nm[0], .3));
+  CHECK(driven.is_derated && near(driven.continuous_Nm[1], .12));
   const LinkageDevice delta = read(kDelta + "tip below\n");
   CHECK(!std::get<device::Delta>(delta.linkage).is_tip_above);
   CHECK(near(std::get<device::Delta>(delta.linkage).side_m, .0045));
@@ -106,6 +111,21 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
   check_refusal(edited(kFiveBar, "63 mm", "63 mm mm"), "unexpected `mm`");
   check_refusal(edited(kFiveBar, "max_torque_1 0.2 N*m\n", ""),
                 "`max_torque_1` is missing; add a line `max_torque_1 VALUE N*m`");
+  const std::string currents = edited(kFiveBar, "max_torque_1 0.2 N*m", "max_current_1 2 A");
+  const std::string constant = "torque_constant_1 0.1 N*m/A\n";
+  check_refusal(currents, "test.device:16: `max_current_1` needs `torque_constant_1`, above 0");
+  check_refusal(currents + "torque_constant_1 0 N*m/A\n", "needs `torque_constant_1`, above 0");
+  check_refusal(kFiveBar + constant + "max_current_1 2 A\n",
+                "test.device:18: `max_current_1` and `max_torque_1` say the same; leave one");
+  check_refusal(kFiveBar + constant, "test.device:17: `torque_constant_1` needs `max_current_1`");
+  check_refusal(edited(currents, "2 A", "0 A") + constant,
+                "test.device:16: `max_current_1` needs to be above 0, to 1000 N*m");
+  check_refusal(edited(currents, "2 A", "2 N*m"), "`N*m` is not a unit for `max_current_1`");
+  check_refusal(currents + constant + "continuous_current_1 0.5 A\n",
+                "test.device:18: `continuous_current_1` needs `thermal_time_1`, too");
+  check_refusal(
+      currents + constant + "continuous_current_1 3 A\nthermal_time_1 5 s\n",
+      "test.device:18: `continuous_current_1` needs to be above 0, from `home_torque_` to");
   check_refusal(edited(kFiveBar, "base 25 mm", "base 2500 mm"),
                 "test.device:2: `linkage` has links that meet at no angles");
   check_refusal(edited(kFiveBar, "base 25 mm", "base -25 mm"),

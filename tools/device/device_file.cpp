@@ -22,6 +22,7 @@ struct Key {
   bool must_be_given;
   double initial;  // in SI; NaN: none
   std::function<void(double)> set;
+  std::string instead = {};  // the key that may stand for it
 };
 
 struct Word {
@@ -118,6 +119,11 @@ void add_derating(LinkageDevice& device, Keys& to) {
            device.continuous_Nm[k] = static_cast<float>(si);
            device.is_derated = true;
          }});
+    to.keys.push_back(
+        {of("continuous_current", k), "A", 0, 1e4, false, kNotGiven, [&device, k](double si) {
+           device.continuous_A[k] = static_cast<float>(si);
+           device.is_derated = true;
+         }});
     to.part(of("thermal_time", k), "s", 1e4, device.thermal_time_s[k]);
   }
 }
@@ -183,6 +189,9 @@ void add_common(LinkageDevice& device, Keys& to) {
     to.number(of("low", k), "rad", -100, 100, joint.low_rad);
     to.number(of("high", k), "rad", -100, 100, joint.high_rad);
     to.number(of("max_torque", k), "N*m", 0, 1000, device.limits.max_torque_Nm[k]);
+    to.keys.back().instead = of("max_current", k);
+    to.part(of("max_current", k), "A", 1e4, device.max_A[k]);
+    to.part(of("torque_constant", k), "N*m/A", 1e4, device.Nm_per_A[k]);
   }
   to.number("max_speed", "rad/s", 0, 1e4, device.joints.max_speed_rad_per_s, false);
   to.number("full_from", "", 0, 1, device.limits.full_from, false);
@@ -295,7 +304,7 @@ LinkageDevice read_device(const std::string& name, const std::string& text) {
       known);
   if (keys.keys.empty()) throw Refused(name + ": it has no line; begin with `linkage five_bar`");
   for (const Key& key : keys.keys)
-    if (key.must_be_given && given.count(key.name) == 0)
+    if (key.must_be_given && given.count(key.name) == 0 && given.count(key.instead) == 0)
       throw Refused(name + ": `" + key.name + "` is missing; add a line `" + key.name + " VALUE " +
                     key.unit + "`");
   fill_rods(device);

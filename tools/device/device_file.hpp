@@ -65,6 +65,9 @@ struct LinkageDevice {
   float second_within_rad = 0;                           // by which they may differ from the first
   bool is_derated = false;                               // motors have thermal limits
   float continuous_Nm[device::kMaxJoints] = {}, thermal_time_s[device::kMaxJoints] = {};
+  // Currents that stand for torques, and what turns them into those at the joint; 0: not given.
+  float max_A[device::kMaxJoints] = {}, continuous_A[device::kMaxJoints] = {};
+  float Nm_per_A[device::kMaxJoints] = {};
 };
 
 /// Reads a device file: a statement a line, `KEY VALUE UNIT`; # begins a comment.
@@ -75,13 +78,14 @@ struct LinkageDevice {
 ///     counts_0 13824 counts/turn      of each joint: encoder, range and largest torque
 ///     low_0 60 deg
 ///     high_0 150 deg
-///     max_torque_0 0.3 N*m
+///     max_torque_0 0.3 N*m            or max_current_0 2 A with torque_constant_0 0.15 N*m/A
 ///     walls forced                    optional: motors come on beside walls that are not stable
 ///     home stops                      optional, or `home pose`: also home_torque_0 (default: 0.3
 ///     of
 ///                                     max_torque_0), home_speed, home_margin, home_pose_0
 ///     index_0 30 deg                  optional, of each joint: also index_period_0, index_within
-///     continuous_torque_0 90 mN*m     optional, of each joint, with thermal_time_0 5 s
+///     continuous_torque_0 90 mN*m     optional, of each joint, with thermal_time_0 5 s;
+///                                     or continuous_current_0 0.6 A
 ///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
 ///                                     middle), proximal_inertia_0 (default: of an even rod)
 /// `name` stands before the line in messages.

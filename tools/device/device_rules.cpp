@@ -26,7 +26,7 @@ constexpr Cause kCauses[] = {
     {device::kRuleOffset, kAny, "base", "needs to be 0 or above: it is the distance of the motors"},
     {device::kRuleNeverCloses, kAny, "linkage",
      "has links that meet at no angles; check the lengths and their units"},
-    {device::kRuleMaxTorque, 0, "max_torque_", "needs to be above 0"},
+    {device::kRuleMaxTorque, 0, "max_torque_", "needs to be above 0, to 1000 N*m"},
     {device::kRuleFade, kAny, "gone_at",
      "needs 0.001 <= gone_at < full_from <= 1; 0.1 and 0.05 if not given"},
     {device::kRuleHoming, 5, "home",
@@ -68,7 +68,35 @@ void refuse_broken(const std::string& name, const GivenKeys& given, core::Verdic
                   std::to_string(verdict.element) + ")");
   std::string key = cause->key;
   if (key.back() == '_') key += std::to_string(verdict.element - cause->element);
+  const size_t torque = key.find("_torque_");
+  if (torque != std::string::npos && given.count(key) == 0) {
+    std::string current = key;
+    if (given.count(current.replace(torque, 8, "_current_")) != 0) key = current;
+  }
   refuse(name, given, key, cause->needs);
+}
+
+// Torque is proportional to current: a current stands for a torque.
+void complete_currents(const std::string& name, const GivenKeys& given, LinkageDevice& device) {
+  const auto complete = [&](const std::string& end, const std::string& of, float current_A,
+                            float Nm_per_A, float& torque_Nm) {
+    const std::string current = of + "_current" + end, torque = of + "_torque" + end;
+    if (given.count(current) == 0) return;
+    if (given.count(torque) != 0)
+      refuse(name, given, current, "and `" + torque + "` say the same; leave one of them out");
+    if (!(Nm_per_A > 0))
+      refuse(name, given, current, "needs `torque_constant" + end + "`, above 0");
+    torque_Nm = current_A * Nm_per_A;
+  };
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const std::string end = "_" + std::to_string(k);
+    const float Nm_per_A = device.Nm_per_A[k];
+    complete(end, "max", device.max_A[k], Nm_per_A, device.limits.max_torque_Nm[k]);
+    complete(end, "continuous", device.continuous_A[k], Nm_per_A, device.continuous_Nm[k]);
+    if (given.count("torque_constant" + end) != 0 && given.count("max_current" + end) == 0 &&
+        given.count("continuous_current" + end) == 0)
+      refuse(name, given, "torque_constant" + end, "needs `max_current" + end + "`");
+  }
 }
 
 void check_rules(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
@@ -131,7 +159,8 @@ void check_index_pulses(const std::string& name, const GivenKeys& given,
 void check_derating(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
   for (uint32_t k = 0; k < device.joints.joints; ++k) {
     const std::string end = "_" + std::to_string(k);
-    const std::string torque = "continuous_torque" + end, time = "thermal_time" + end;
+    const std::string of = given.count("continuous_current" + end) != 0 ? "current" : "torque";
+    const std::string torque = "continuous_" + of + end, time = "thermal_time" + end;
     if (given.count(torque) == given.count(time)) continue;
     const bool has_torque = given.count(torque) != 0;
     refuse(name, given, has_torque ? torque : time,
@@ -193,6 +222,7 @@ core::Verdict check_stored(core::Bytes section) {
 }
 
 void complete_and_check(const std::string& name, const GivenKeys& given, LinkageDevice& device) {
+  complete_currents(name, given, device);
   check_rules(name, given, device);
   complete_homing(name, given, device);
   check_index_pulses(name, given, device);
