@@ -48,6 +48,13 @@ constexpr bool kHasSlots = true;
 constexpr bool kHasSlots = false;
 #endif
 
+// With part `brake`: the board has a motors_brake().
+#ifdef FIRMTOUCH_APP_BRAKE
+constexpr bool kHasBrake = true;
+#else
+constexpr bool kHasBrake = false;
+#endif
+
 /// One tick: from the encoders to the motors. Called by the board's timer.
 void servo_interrupt();
 

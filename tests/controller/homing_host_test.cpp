@@ -103,9 +103,10 @@ void check_homes_anew(Rig& rig) {
 TEST(HomedDevice_ByStops_RendersOnlyAfterIt) {
   Rig rig(device::HomeBy::kStops);
   rig.tick(0);
-  CHECK(rig.is_not_homed() && !rig.is_homing() && !record::may_push(rig.output));
+  CHECK(rig.is_not_homed() && !rig.is_homing() && !record::may_push(rig.output) &&
+        !record::may_move(rig.output));
   rig.tick(record::kFlagEnable);
-  CHECK(rig.is_homing() && record::may_push(rig.output));
+  CHECK(rig.is_homing() && record::may_push(rig.output) && record::may_move(rig.output));
   const uint32_t ticks = rig.enable();
   firmtouch::test::note("ticks of homing", ticks);
   CHECK_LE(ticks, 2000u);

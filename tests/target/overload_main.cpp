@@ -92,6 +92,7 @@ void app::AppController::tick(const record::TickInput& input, record::TickOutput
 }
 
 void hal::motors_state(bool) {}
+void hal::motors_write_N(const float (&)[3]) {}
 void hal::motors_off() {}
 uint32_t hal::motors_lines() { return g_tick >= kEnable_ticks ? kMotorsEnable : 0; }
 

@@ -1,6 +1,6 @@
 // The controller program while its motors push, built as for hardware. The cause whose number lies
-// in the asset's slot must switch the power stage off; tests/target/run_stop checks what is
-// printed.
+// in the asset's slot must switch the power stage off and engage the brake; tests/target/run_stop
+// checks what is printed.
 #include <stdint.h>
 
 #include "emulator/exit.hpp"
@@ -29,14 +29,33 @@ volatile uint32_t g_tick = 0;
 volatile bool g_has_power = false;
 bool g_had_power = false;  // right before the cause
 bool g_is_reported = false;
+uint32_t g_power_tick = 0;    // of the first with power
+uint32_t g_written_tick = 0;  // of the last torque
+volatile bool g_is_released = false;
+bool g_was_released = false;  // right before the cause
+
+void set_brake(bool is_released) {
+  if (is_released && !g_is_released) {
+    print("brake released with power: ", g_has_power ? 1 : 0);
+    print(", torque: ", g_written_tick == g_tick ? 1 : 0);
+    print(", after ticks: ", g_tick - g_power_tick);
+    hal::board_print("\n");
+  }
+  g_is_released = is_released;
+  if (g_tick + 1 == kCause_ticks) g_was_released = is_released;
+}
 
 void set_power(bool has_power) {
+  if (has_power && !g_has_power) g_power_tick = g_tick;
   g_has_power = has_power;
   if (g_tick + 1 == kCause_ticks) g_had_power = has_power;
   if (has_power || g_is_reported || g_tick < kCause_ticks) return;
   g_is_reported = true;
   print("power before: ", g_had_power ? 1 : 0);
   print(", off after ticks: ", g_tick - kCause_ticks);
+  hal::board_print("\n");
+  print("brake released before: ", g_was_released ? 1 : 0);
+  print(", now: ", g_is_released ? 1 : 0);
   hal::board_print("\n");
 }
 
@@ -70,8 +89,11 @@ void app::AppController::tick(const record::TickInput& input, record::TickOutput
 }
 
 void hal::motors_state(bool may_push) { set_power(may_push); }
+void hal::motors_write_N(const float (&)[3]) { g_written_tick = g_tick; }
+void hal::motors_brake(bool release) { set_brake(release); }
 void hal::motors_off() {
   ++g_off_calls;
+  set_brake(false);
   set_power(false);
 }
 uint32_t hal::motors_lines() {

@@ -28,7 +28,7 @@ static_assert(servo::kGuardMaxPeriod_s >= params::kMaxTickPeriod_s &&
               servo::kGuardMaxPeriod_s <= servo::kMaxTickPeriod_s &&
               servo::kMaxTickPeriod_s <= params::kMaxTickPeriod_s);
 
-// record::may_push() relies on the numbers of these modes.
+// record::may_push() and may_move() rely on the numbers of these modes.
 static_assert(static_cast<uint32_t>(servo::Mode::kRampIn) == 1 &&
               static_cast<uint32_t>(servo::Mode::kOn) == 2 &&
               static_cast<uint32_t>(servo::Mode::kRampOut) == 3);

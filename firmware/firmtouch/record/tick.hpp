@@ -138,6 +138,12 @@ constexpr bool may_push(const TickOutput& output) {
          (output.state & kStateHoming) != 0;
 }
 
+/// Whether the motors hold the joints, so that their brake may be released: the force has grown in,
+/// or the motors home the linkage.
+constexpr bool may_move(const TickOutput& output) {
+  return (output.state & kStateServoMask) == 2 || (output.state & kStateHoming) != 0;
+}
+
 struct TickRecord {
   TickInput input;
   TickOutput output;

@@ -12,7 +12,13 @@ void motors_state(bool may_push);
 /// Context: servo interrupt.
 void motors_write_N(const float (&motor_N)[3]);
 
-/// Switches the power stage off at once. Must work at reset, when no variable has its value yet.
+/// Releases the brake of all joints, or engages it. Only a program with part `brake` calls it, in
+/// each tick: to engage it before motors_state(), to release it after motors_write_N().
+/// Context: servo interrupt.
+void motors_brake(bool release);
+
+/// Switches the power stage off at once, and engages the brake if there is one. Must work at reset,
+/// when no variable has its value yet.
 /// Context: any, the fault handler included.
 void motors_off();
 

@@ -3,7 +3,6 @@
 #include "asset/small_file.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/encoders.hpp"
-#include "firmtouch/hal/motors.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "servo_interrupt.hpp"
 #include "text.hpp"
@@ -40,6 +39,5 @@ bool hal::encoders_read(int32_t (&counts)[3]) {
   for (int32_t& count : counts) count = 0;
   return true;
 }
-void hal::motors_write_N(const float (&)[3]) {}
 
 }  // namespace firmtouch
