@@ -169,7 +169,8 @@ cli::Command device_command() {
       "lines KEY VALUE UNIT.\n# begins a comment. Frames, angles and lengths: "
       "firmware/firmtouch/device/five_bar.hpp, serial_arm.hpp, delta.hpp.\nKeys, with *: must be "
       "given; in brackets: the value if not given. Further joints and links: _1, _2 as _0.\n"
-      "Other units: mm cm um in, deg, deg/s, counts/turn, g, g*cm2, mN*m, mN*m*s/rad, ms.\n" +
+      "Other units: mm cm um in, deg, deg/s, counts/turn, g, g*cm2, mN*m, mN*m/A, mA, mN*m*s/rad, "
+      "ms.\n" +
       tools::device_file_help() +
       "zero_0: angle at a count of 0. low_0, high_0: range. walls forced: walls stiffer than "
       "stable are enabled.\nfull_from, gone_at: reciprocal condition from which the force is "
@@ -178,7 +179,9 @@ cli::Command device_command() {
       "rejected. home_torque_0: 0.3 of max_torque_0 if not given.\nhome_margin: by which the "
       "travel may miss the range. index_0: angle of an index pulse.\nsecond_within: by which a "
       "joint's two encoders may differ. continuous_torque_0: of a hot motor (I squared "
-      "t).\ncable_0: 0 is rigid. poles_0: periods of "
+      "t).\nmax_current_0, continuous_current_0 with torque_constant_0 (at the joint): for those "
+      "torques. winding_rise_0: at the\ncontinuous torque. magnet_rise_0: of the magnets, then; "
+      "they follow by magnet_time_0.\ncable_0: 0 is rigid. poles_0: periods of "
       "ripple_0 and cogging_0 in a turn.\nbreakaway_0: dry friction at rest; at a rate w it is "
       "coulomb_0 + (breakaway_0 - coulomb_0) exp(-(w / stribeck_speed_0)^2).\n"
       "encoder_noise_0: standard deviation in counts.\nCentre and inertia "

@@ -12,6 +12,8 @@ double Motor::torque_Nm(double wanted_Nm, double rotor_rad, double time_s) {
     mean_Nm += off_Nm * gone * drive_.lag_s / time_s;
     made_Nm_ = wanted_Nm + off_Nm * (1 - gone);
   }
+  winding_.heat(mean_Nm, time_s);
+  mean_Nm *= winding_.torque_share();
   if (!(drive_.poles > 0)) return mean_Nm;
   const double wave = std::sin(drive_.poles * rotor_rad);
   return mean_Nm * (1 + drive_.ripple * wave) + drive_.cogging_N_m * wave;

@@ -48,7 +48,10 @@ Machine::Machine(const Scenario& scenario, Vec start_m, Vec zero_m)
     device_ = &*scenario.linkage;
     for (uint32_t k = 0; k < joint_count(); ++k) {
       turns_[k] = index_turns(k);
-      motors_[k] = Motor(device_->masses.joint[k]);
+      const tools::JointFriction& joint = device_->masses.joint[k];
+      motors_[k] = Motor(joint, {static_cast<double>(device_->continuous_Nm[k]),
+                                 static_cast<double>(device_->thermal_time_s[k]),
+                                 joint.winding_rise_K, joint.magnet_rise_K, joint.magnet_time_s});
     }
     for (uint32_t k = 0; k < 3 && scenario.linkage->is_homed; ++k)
       zero_count_[k] = linkage_->count(k);
@@ -112,6 +115,16 @@ void Machine::advance(Vec hand_N, double time_s) {
     pass_pulses();
   }
   locate();
+}
+
+Machine::Heat Machine::hottest() const {
+  Heat most;
+  for (uint32_t k = 0; k < joint_count() && linkage_; ++k) {
+    const Winding& winding = motors_[k].winding();
+    if (winding.largest_rise() > most.share)
+      most = {k, winding.largest_rise(), winding.largest_rise() * winding.rated_K()};
+  }
+  return most;
 }
 
 Vec Machine::on_way_to_start_m(const JointMotion& from, double share) const {

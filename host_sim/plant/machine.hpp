@@ -42,6 +42,12 @@ class Machine {
   JointMotion joints() const { return linkage_ ? linkage_->body().motion() : JointMotion{}; }
   /// Of a linkage: the tip where each joint has gone `share` of its way from `from` to the start.
   Vec on_way_to_start_m(const JointMotion& from, double share) const;
+  /// The hottest that a winding of a linkage's motors with thermal limits was, from cold.
+  struct Heat {
+    uint32_t joint = 0;
+    double share = 0, rise_K = 0;  // of its rated rise; 0: there is none
+  };
+  Heat hottest() const;
   /// Null for a Cartesian device.
   const EnergyBook* energy() const { return linkage_ ? &linkage_->energy() : nullptr; }
   /// Integration steps in a tick of `period_s`, so that a linkage has 50,000 a second.

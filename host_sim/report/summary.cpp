@@ -92,6 +92,15 @@ std::string homing_text(const Summary& s) {
   return text;
 }
 
+std::string windings_text(const RunFacts& facts) {
+  char text[128] = "";
+  if (facts.hottest.share > 0)
+    std::snprintf(text, sizeof text,
+                  "  windings       hottest %.3f of its rated rise, %.1f K, joint %u, from cold\n",
+                  facts.hottest.share, facts.hottest.rise_K, facts.hottest.joint);
+  return text;
+}
+
 bool is_scripted_fault(const Event& event) {
   return event.kind <= Event::Kind::kEncoderFault || event.kind == Event::Kind::kFail;
 }
@@ -375,6 +384,7 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
     line(" deg; at the worst pose to %.0f and %.0f; contact is enabled to %.0f\n",
          s.worst_walls.stable_N_per_m, s.worst_walls.passive_N_per_m, s.stable_contact_N_per_m);
   }
+  text += windings_text(trace);
   line("  load           %s\n", load_text(s).c_str());
   if (trace.compared)
     text += trace.difference ? "  same bits      NO: see below\n"

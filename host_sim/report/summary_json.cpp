@@ -37,6 +37,10 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
         .add("worst_instructions", uint64_t{s.worst_instructions})
         .add("stack_high_bytes", uint64_t{s.stack_high_bytes});
   if (s.worst_late_s > 0) all.add("mean_late_s", s.mean_late_s).add("worst_late_s", s.worst_late_s);
+  if (facts.hottest.share > 0)
+    all.add("hottest_winding_share", facts.hottest.share)
+        .add("hottest_winding_K", facts.hottest.rise_K)
+        .add("hottest_winding_joint", uint64_t{facts.hottest.joint});
   if (facts.compared) all.add("same_bits", !facts.difference);
   if (s.homed_s >= 0) all.add("homed_s", s.homed_s);
   if (s.homing != 0) all.add("homing_state", uint64_t{s.homing >> 20});

@@ -377,6 +377,7 @@ bool Simulation::next(RunTick& tick) {
   tick.device_mps = loop.machine.velocity_mps();
   tick.joints = loop.machine.joints();
   tick.hand_J = loop.hand_J;
+  facts_.hottest = loop.machine.hottest();
   tick.encoder_off_rad = loop.machine.encoder_off_rad();
   return true;
 }

@@ -10,13 +10,12 @@
 #include "firmtouch/controller/tool_controller.hpp"
 #include "host_sim/controllers/lock_step_controller.hpp"
 #include "host_sim/plant/environment.hpp"
+#include "host_sim/plant/machine.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/fields.hpp"
 #include "host_sim/trace/tick.hpp"
 
 namespace firmtouch::host_sim {
-
-struct EnergyBook;
 
 /// One tick of a run: its record, and what only the simulator has.
 struct RunTick {
@@ -43,6 +42,7 @@ struct RunFacts {
   std::vector<Event> events;
   std::optional<Difference> difference;  // the first one; it ends the run
   uint32_t stack_high_bytes = 0;
+  Machine::Heat hottest;  // winding so far
 };
 
 /// Whether the motors are on in this tick: enabled, and no fault latched. Contact, depth and guide

@@ -172,6 +172,9 @@ void add_masses(LinkageDevice& device, Keys& to) {
     to.number(of("cogging", k), "N*m", 0, 100, joint.cogging_N_m, false);
     to.number(of("poles", k), "", 0, 10000, joint.poles, false);
     to.number(of("encoder_noise", k), "", 0, 1000, joint.noise_counts, false);
+    to.number(of("winding_rise", k), "K", 1, 300, joint.winding_rise_K, false);
+    to.number(of("magnet_rise", k), "K", 0, 300, joint.magnet_rise_K, false);
+    to.number(of("magnet_time", k), "s", 0.1, 1e5, joint.magnet_time_s, false);
   }
   to.number("gravity_x", "m/s2", -100, 100, masses.gravity_mps2.x, false);
   to.number("gravity_y", "m/s2", -100, 100, masses.gravity_mps2.y, false);

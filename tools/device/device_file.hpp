@@ -35,6 +35,8 @@ struct JointFriction {
   double ripple = 0, cogging_N_m = 0;  // share of the torque, and beside it: amplitudes
   double poles = 0;                    // periods of both in a turn of the joint
   double noise_counts = 0;             // of its encoder: standard deviation
+  double winding_rise_K = 80;          // of its motor at the continuous torque
+  double magnet_rise_K = 0, magnet_time_s = 300;
 };
 
 /// What the simulator needs, and the compensation of weight.

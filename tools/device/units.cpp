@@ -55,6 +55,7 @@ constexpr Unit kUnits[] = {
     {"N*m", "torque", 1},
     {"N.m", "torque", 1},
     {"mN*m", "torque", 1e-3},
+    {"K", "temperature rise", 1},
     {"A", "current", 1},
     {"mA", "current", 1e-3},
     {"N*m/A", "torque constant", 1},
