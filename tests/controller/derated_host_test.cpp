@@ -86,9 +86,9 @@ const double (&deepest())[3] {
   return at_m;
 }
 
-template <class Device = DeratedDevice<AnyDevice>>
-struct Rig : JointsRig<MeshController<Device>> {
-  using Base = JointsRig<MeshController<Device>>;
+template <class Device = DeratedDevice<AnyDevice>, class OfController = MeshController<Device>>
+struct Rig : JointsRig<OfController> {
+  using Base = JointsRig<OfController>;
   using Base::input, Base::output;
 
   double heat[3] = {1, 1, 1}, most_heat = 1, most_step_Nm = 0, over_law_Nm = 0;
@@ -176,6 +176,27 @@ TEST(DeratedDevice_RightAfterAReset_HasTheContinuousTorque) {
   CHECK_EQ(next.heat().heat[0], rig.controller.device().heat().heat[0]);
   rig.controller.reset();
   for (const float heat : rig.controller.device().heat().heat) CHECK_EQ(heat, 1.0f);
+}
+
+// It goes on cold, and so does the guard.
+TEST(DeratedDevice_BehindASwapOfTheAsset_HasItsHeat) {
+  using Device = DeratedDevice<AnyDevice>;
+  Rig<Device, Controller<Surfaces<MeshSurface>, NoGuide, Device, asset::Proven, TwoScenes>> rig(
+      pushing());
+  for (int i = 0; i < 3000; ++i) rig.tick(false, true);
+  const float heat = rig.controller.device().heat().heat[0];
+  rig.controller.begin_next(pushing().bytes());
+  while (!rig.controller.work_next(kSliceUnits)) {
+  }
+  CHECK(rig.controller.swap());
+  CHECK_EQ(rig.controller.device().heat().heat[0], heat);
+  double most_Nm = 0;
+  for (int i = 0; i < 2000; ++i) {
+    rig.tick(true, true);
+    most_Nm = std::max(most_Nm, rig.largest_Nm());
+  }
+  CHECK_GE(most_Nm, 2 * kContinuous_Nm);
+  rig.check_heat();
 }
 
 // Enable, disable, push and let go in any order.
