@@ -13,7 +13,7 @@ namespace {
 constexpr double kMass_kg = 0.075;
 
 // Energy that the hand gets back from the device alone: of its motion, its stops, and of its weight
-// as far as the motors do not carry it.
+// and springs as far as the motors do not carry it.
 class Stored {
  public:
   explicit Stored(bool is_carried) : is_carried_(is_carried) {}

@@ -170,12 +170,14 @@ cli::Command device_command() {
       "firmware/firmtouch/device/five_bar.hpp, serial_arm.hpp, delta.hpp.\nKeys, with *: must be "
       "given; in brackets: the value if not given. Further joints and links: _1, _2 as _0.\n"
       "Other units: mm cm um in, deg, deg/s, counts/turn, g, g*cm2, mN*m, mN*m/A, mA, mN*m*s/rad, "
+      "mN*m/rad, "
       "ms.\n" +
       tools::device_file_help() +
       "zero_0: angle at a count of 0. low_0, high_0: range. walls forced: walls stiffer than "
       "stable are enabled.\nfull_from, gone_at: reciprocal condition from which the force is "
       "whole, and at which it is gone.\ntorque_rise: least time from 0 to max_torque_0. "
-      "carried_share: of max_torque_0, for the weight.\nmax_speed: a faster step of an encoder is "
+      "carried_share: of max_torque_0, for the weight less spring_0 (relaxed_0 - "
+      "angle).\nmax_speed: a faster step of an encoder is "
       "rejected. home_torque_0: 0.3 of max_torque_0 if not given.\nhome_margin: by which the "
       "travel may miss the range. index_0: angle of an index pulse.\nsecond_within: by which a "
       "joint's two encoders may differ. continuous_torque_0: of a hot motor (I squared "

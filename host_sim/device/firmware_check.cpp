@@ -4,7 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "firmtouch/device/stored_linkage.hpp"
+#include "firmtouch/device/compensation.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "host_sim/device/linkage_body.hpp"
 
 namespace firmtouch::host_sim {
@@ -82,11 +83,13 @@ double force_error(const device::StoredLinkage& linkage, const LinkageBody& body
 }
 
 // The largest of the joints; `heaviest_Nm` is raised to the largest torque.
-double weight_error_Nm(const device::StoredLinkage& linkage, const LinkageBody& body,
+double weight_error_Nm(const device::StoredLinkage& linkage,
+                       const device::Compensation& compensation, const LinkageBody& body,
                        double& heaviest_Nm) {
   float angle_rad[kJoints];
   narrow(body.motion(), angle_rad);
-  const math::Vec3 carried = carrying_torques_Nm(linkage, angle_rad, pose_of(linkage, angle_rad));
+  math::Vec3 carried = carrying_torques_Nm(linkage, angle_rad, pose_of(linkage, angle_rad));
+  if (compensation.is_open()) carried = carried - spring_torques_Nm(compensation, angle_rad);
   const double carried_Nm[] = {wide(carried.x), wide(carried.y), wide(carried.z)};
   double held_Nm[kJoints], error_Nm = 0;
   body.holding_torques_Nm(held_Nm);
@@ -104,6 +107,14 @@ FirmwareCheck check_firmware(const LinkageDevice& device, uint32_t poses) {
   device::StoredLinkage linkage;
   FirmwareCheck check;
   if (!open(core::Bytes(reinterpret_cast<const uint8_t*>(&layout), sizeof layout), linkage).ok())
+    return check;
+  // Springs without a share that carries weight are not stored: as if it were there.
+  LinkageDevice carried = device;
+  carried.carried_share = std::max(device.carried_share, 0.1f);
+  const std::vector<uint8_t> stored = tools::stored_bytes_of(carried);
+  device::Compensation compensation;
+  if (!open(core::Bytes(stored.data(), static_cast<uint32_t>(stored.size())), linkage, compensation)
+           .ok())
     return check;
   Angles angles(device);
   double worst_Nm = 0;
@@ -123,7 +134,7 @@ FirmwareCheck check_firmware(const LinkageDevice& device, uint32_t poses) {
     check.force = std::max(check.force, force);
     if (force > kMaxForceError)
       check.force_condition = std::max(check.force_condition, wide(condition));
-    worst_Nm = std::max(worst_Nm, weight_error_Nm(linkage, body, check.heaviest_Nm));
+    worst_Nm = std::max(worst_Nm, weight_error_Nm(linkage, compensation, body, check.heaviest_Nm));
   }
   if (check.heaviest_Nm > 0) check.weight = worst_Nm / check.heaviest_Nm;
   return check;

@@ -85,6 +85,16 @@ void LinkageBody::add_links(const MovingPoints& points, Dynamics& to) const {
   load(tip, weight_of_tip_kg, by_elbows_N + tip.bias_mps2 * at_tip_kg);
 }
 
+// Springs that balance the weight: their energy is part of its.
+void LinkageBody::add_springs(const JointMotion& motion, Dynamics& to) const {
+  for (uint32_t k = 0; k < joints_; ++k) {
+    const tools::JointFriction& joint = device_.masses.joint[k];
+    const double off_rad = motion.angle_rad[k] - joint.relaxed_rad;
+    to.torque_Nm[k] -= joint.spring_N_m_per_rad * off_rad;
+    to.weight_J += 0.5 * joint.spring_N_m_per_rad * off_rad * off_rad;
+  }
+}
+
 void LinkageBody::add_stops(const JointMotion& motion, Dynamics& to) const {
   for (uint32_t k = 0; k < joints_; ++k) {
     const double off_rad = beyond(device_.joints.joint[k], motion.angle_rad[k]);
@@ -103,6 +113,7 @@ LinkageBody::Dynamics LinkageBody::dynamics_of(const JointMotion& motion) const 
   all.is_closed = points.is_closed && points.span >= kMinSpan;
   all.tip = points.tip;
   add_links(points, all);
+  add_springs(motion, all);
   double mass[kJoints][kJoints];
   tools::put_inertia(device_, moments_, points, mass);
   all.has_inertia = tools::invert(mass, all.inverse);

@@ -20,13 +20,14 @@ struct EnergyBook {
   double hand_J = 0, motors_J = 0;  // work done on the linkage
   double lost_J = 0;                // to friction and in the stops
   double stored_J = 0, start_J = 0;
-  double weight_J = 0;    // part of stored_J: of the weight
+  double weight_J = 0;    // part of stored_J: of the weight and of what balances it
   double turnover_J = 0;  // largest sum of lost and stored energy
 
   double error_J() const { return hand_J + motors_J - lost_J - (stored_J - start_J); }
 };
 
-/// Rigid-body dynamics of a linkage: M(q) q'' = torques - h(q, q') + gravity + J^T hand - friction.
+/// Rigid-body dynamics of a linkage: M(q) q'' = torques - h(q, q') + gravity + springs + J^T hand -
+/// friction.
 /// Integrated in the third order with one evaluation a step, motors and hand constant: rates by
 /// Adams and Bashforth's second order and angles by the trapezoid rule, corrected by the change of
 /// acceleration that follows. Where the rates differ from the trapezoid rule's by more than
@@ -54,7 +55,7 @@ class LinkageBody {
   uint64_t jams() const { return jams_; }
   /// The force that these torques hold still at the tip; of a planar linkage in its plane.
   Vec tip_force_N(Vec torque_Nm) const;
-  /// Torques that hold it still against gravity, at its angles.
+  /// Torques that hold it still against gravity and springs, at its angles.
   void holding_torques_Nm(double (&torque_Nm)[kJoints]) const;
   /// Encoder counts, rounded down as an incremental encoder does.
   int32_t count(uint32_t joint) const { return count_at(joint, motion_.angle_rad[joint]); }
@@ -70,7 +71,7 @@ class LinkageBody {
   struct Dynamics {
     bool is_closed = false, has_inertia = false;
     double inverse[kJoints][kJoints];   // of the inertia
-    double torque_Nm[kJoints] = {};     // of gravity, less those that the motion itself takes
+    double torque_Nm[kJoints] = {};     // of gravity and springs, less what the motion itself takes
     double resisting_Nm[kJoints] = {};  // viscous friction and the stops
     double kinetic_J = 0, weight_J = 0;
     double stored_J = 0;  // kinetic, of weight and of the stops
@@ -78,6 +79,7 @@ class LinkageBody {
   };
   Dynamics dynamics_of(const JointMotion& motion) const;
   void add_links(const MovingPoints& points, Dynamics& to) const;
+  void add_springs(const JointMotion& motion, Dynamics& to) const;
   void add_stops(const JointMotion& motion, Dynamics& to) const;
   // Torques without motors and Coulomb friction, and what all torques do.
   static void load(const Dynamics& at, Vec hand_N, double (&load_Nm)[kJoints]);

@@ -13,10 +13,11 @@ constexpr double kTurn_rad = 6.283185307179586, kStep_s = 1e-5, kMaxTime_s = 60;
 constexpr double kHeld_kg_m2 = 100;  // the rotor of a joint that stays where it is
 constexpr uint32_t kSettling = 40, kPeriods = 20;
 
-// Without gravity and friction, and with the gap or without.
+// Without gravity, springs and friction, and with the gap or without.
 LinkageDevice bare(LinkageDevice device, bool has_gap) {
   device.masses.gravity_mps2 = {};
   for (tools::JointFriction& joint : device.masses.joint) {
+    joint.spring_N_m_per_rad = 0;
     joint.viscous_N_m_s = joint.coulomb_N_m = joint.breakaway_N_m = joint.cable_N_m_s = 0;
     if (!has_gap) joint.backlash_rad = 0;
   }

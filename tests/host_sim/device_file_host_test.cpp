@@ -81,6 +81,11 @@ TEST(DeviceFile_EveryKey_ConvertsToSi) {
            "torque_constant_1 80 mN*m/A\ncontinuous_current_1 1.5 A\nthermal_time_1 5 s\n");
   CHECK(near(driven.limits.max_torque_Nm[1], .2) && near(driven.limits.max_torque_Nm[0], .3));
   CHECK(driven.is_derated && near(driven.continuous_Nm[1], .12));
+  const std::string spring = "spring_1 50 mN*m/rad\nrelaxed_1 90 deg\n";
+  const LinkageDevice sprung = read(kFiveBar + spring + "carried_share 0.5\n");
+  CHECK(near(static_cast<float>(sprung.masses.joint[1].spring_N_m_per_rad), .05));
+  CHECK(near(static_cast<float>(sprung.masses.joint[1].relaxed_rad), 1.5707963));
+  CHECK(tools::has_compensation(sprung) && !tools::has_compensation(read(kFiveBar + spring)));
   const LinkageDevice delta = read(kDelta + "tip below\n");
   CHECK(!std::get<device::Delta>(delta.linkage).is_tip_above);
   CHECK(near(std::get<device::Delta>(delta.linkage).side_m, .0045));
@@ -152,6 +157,11 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
                 "test.device:18: `second_within` needs 3 counts");
   check_refusal(kFiveBar + "second_1 0 counts/rad\nsecond_within 1 deg\n",
                 "test.device:18: `second_within` needs a `second_` other than 0");
+  check_refusal(kFiveBar + "relaxed_1 90 deg\n", "test.device:17: `relaxed_1` needs `spring_1`");
+  check_refusal(kFiveBar + "spring_1 1 N*m/rad\n", "test.device:17: `spring_1` needs `relaxed_1`");
+  check_refusal(kFiveBar + "spring_1 1e-50 N*m/rad\nrelaxed_1 1 rad\n",
+                "test.device:17: `spring_1` needs to be above 0");
+  check_refusal(kFiveBar + "spring_1 1001 N*m/rad\n", "`spring_1` = 1001 N*m/rad is outside");
   const std::string thermal = "continuous_torque_1 0.1 N*m\nthermal_time_1 ";
   check_refusal(kFiveBar + edited(thermal, "0.1", "0.21") + "5 s\n",
                 "test.device:17: `continuous_torque_1` needs to be above 0, from `home_torque_`");

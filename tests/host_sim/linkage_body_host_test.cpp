@@ -74,7 +74,7 @@ double size(double a) { return std::fabs(a); }
 
 // 60 s of the arm; of the others with --long, else 10 s.
 TEST(FreeSwing_60Seconds_KeepsItsEnergy) {
-  for (const Swing& swing : swings()) {
+  for (const Swing& swing : swings("spring_0 5 mN*m/rad\nrelaxed_0 2 rad\n")) {
     LinkageBody body(swing.device, swing.start);
     CHECK(body.has_inertia());
     double low_J = 1e9, high_J = -1e9, worst_J = 0, moved_rad = 0;
@@ -99,7 +99,7 @@ TEST(FreeSwing_60Seconds_KeepsItsEnergy) {
 // Hand and motors push, friction brakes, and the stops are hit.
 TEST(Balance_WorkIsStoredOrLost) {
   const std::string dry =
-      "viscous_0 1e-4 N*m*s/rad\ncoulomb_0 0.002 N*m\n"
+      "viscous_0 1e-4 N*m*s/rad\ncoulomb_0 0.002 N*m\nspring_1 2 mN*m/rad\nrelaxed_1 1.5 rad\n"
       "coulomb_1 0.003 N*m\nstop_stiffness 30 N*m/rad\n";
   std::vector<Swing> all = swings(dry);
   for (const Swing& swing :
@@ -139,6 +139,27 @@ TEST(DryFriction_HoldsUpToItsTorque_AndBringsToRest) {
   CHECK_GE(size(body.motion().angle_rad[0] - 2.1), 1e-3);
   for (int step = 0; step < 50000; ++step) body.advance(kNone, {}, 2e-5);
   CHECK_LE(size(body.motion().rate_rad_per_s[0]), 1e-9);
+}
+
+// Closed form: a rotor without links, a pendulum of torsion.
+TEST(BalancingSpring_SwingsAtItsOwnFrequency) {
+  LinkageDevice device = tools::read_device(
+      "arm",
+      "linkage serial_arm 2\nlink_0 130 mm\nlink_1 120 mm\nspring_0 0.2 N*m/rad\n"
+      "relaxed_0 0.3 rad\n" +
+          joints(2, "-400", "400"));
+  device.masses.joint[0].rotor_kg_m2 = 1e-3;
+  LinkageBody body(device, {{0.8, 1}, {}});
+  const double turns_per_s = std::sqrt(0.2 / 1e-3);  // radians of its phase
+  double worst_rad = 0;
+  for (uint32_t step = 1; step <= 100000; ++step) {
+    body.advance(kNone, {}, 2e-5);
+    const double expected_rad = 0.3 + 0.5 * std::cos(turns_per_s * step * 2e-5);
+    worst_rad = std::max(worst_rad, size(body.motion().angle_rad[0] - expected_rad));
+  }
+  CHECK_LE(worst_rad, 1e-6);
+  CHECK_LE(size(body.energy().weight_J - 0.1 * std::pow(body.motion().angle_rad[0] - 0.3, 2)),
+           1e-12);
 }
 
 static device::StoredLinkage opened(const device::LinkageLayout& layout) {

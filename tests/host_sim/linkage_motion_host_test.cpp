@@ -31,10 +31,18 @@ struct RodEnds {
   double length_m;
 };
 
+// On a rod from a fixed point: its angle is from `flat` toward `up`.
+struct Spring {
+  size_t rod;
+  double N_m_per_rad, relaxed_rad;
+  Vector3d flat, up;
+};
+
 // Points with uniform rods between them; `ways` are directions in which no point moves.
 struct Points {
   VectorXd at_m, velocity_mps;
   std::vector<RodEnds> rods;
+  std::vector<Spring> springs;
   std::vector<std::pair<int, Vector3d>> rails;  // of a point: it moves across this direction only
   bool is_upright = false;                      // point 0 and the tip stay in one plane through z
   double tip_kg = 0;
@@ -78,6 +86,15 @@ struct Points {
     all.topLeftCorner(n, n) = mass;
     right.head(n) = load_N;
     right.segment<3>(3 * tip) += hand_N;
+    for (const Spring& spring : springs) {
+      const RodEnds& r = rods[spring.rod];
+      const Vector3d way = end(at, r.to, Vector3d::Zero()) - r.fixed_m;
+      const double angle_rad = std::atan2(way.dot(spring.up), way.dot(spring.flat));
+      const double torque_Nm = spring.N_m_per_rad * (spring.relaxed_rad - angle_rad);
+      right.segment<3>(3 * r.to) +=
+          torque_Nm / way.norm() *
+          (spring.up * std::cos(angle_rad) - spring.flat * std::sin(angle_rad));
+    }
     Eigen::Index row = n;
     for (const RodEnds& r : rods) {
       const Vector3d way = end(at, r.to, Vector3d::Zero()) - end(at, r.from, r.fixed_m);
@@ -177,10 +194,11 @@ TEST(Motion_FiveBar_IsThatOfConstrainedPoints) {
       "linkage five_bar\nbase 80 mm\nproximal_0 63 mm\nproximal_1 60 mm\ndistal_0 75 mm\n"
       "distal_1 78 mm\nproximal_mass_0 12 g\nproximal_mass_1 14 g\nproximal_centre_0 20 mm\n"
       "distal_mass_0 9 g\ndistal_mass_1 11 g\ndistal_inertia_1 9e-6 kg*m2\ntip_mass 20 g\n"
-      "gravity_y 9.81 m/s2\ngravity_z 0 m/s2\n" +
+      "gravity_y 9.81 m/s2\ngravity_z 0 m/s2\nspring_1 30 mN*m/rad\nrelaxed_1 1 rad\n" +
           joints(2));
   const JointMotion start{{1.8, 1.35}, {0.5, -0.3}};
   Points points = points_of(device, start, 2);
+  points.springs = {{2, .03, 1, {1, 0, 0}, {0, 1, 0}}};
   for (int k = 0; k < 3; ++k) points.rails.push_back({k, {0, 0, 1}});
   CHECK_LE(difference(device, start, points), 1e-5);
 }
@@ -191,13 +209,18 @@ TEST(Motion_Delta_IsThatOfConstrainedPoints) {
       "linkage delta\nupper_0 60 mm\nupper_1 60 mm\nupper_2 60 mm\nlower_0 103 mm\n"
       "lower_1 103 mm\nlower_2 103 mm\nbase_radius 80 mm\nplatform_radius 21 mm\nside 4.5 mm\n"
       "upper_mass_0 20 g\nupper_mass_1 22 g\nupper_mass_2 18 g\nupper_centre_1 25 mm\n"
-      "lower_mass_0 8 g\nlower_mass_1 8 g\nlower_mass_2 9 g\ntip_mass 60 g\ngravity_z 2 m/s2\n" +
+      "lower_mass_0 8 g\nlower_mass_1 8 g\nlower_mass_2 9 g\ntip_mass 60 g\ngravity_z 2 m/s2\n"
+      "spring_0 20 mN*m/rad\nrelaxed_0 -1 rad\nspring_2 40 mN*m/rad\nrelaxed_2 0.5 rad\n" +
           joints(3));
   const JointMotion start{{1.2, 1.3, 1.1}, {1, -0.5, 0.2}};
   Points points = points_of(device, start, 3);
   for (int k = 0; k < 3; ++k) {  // an upper link stays in its arm's upright plane
     const double turn = 2.0943951023931953 * k;
     points.rails.push_back({k, {-std::sin(turn), std::cos(turn), 0}});
+    const Vector3d flat(std::cos(turn), std::sin(turn), 0);
+    const size_t rod = static_cast<size_t>(2 * k);
+    if (k == 0) points.springs.push_back({rod, .02, -1, flat, {0, 0, 1}});
+    if (k == 2) points.springs.push_back({rod, .04, .5, flat, {0, 0, 1}});
   }
   CHECK_LE(difference(device, start, points), 1e-5);
 }

@@ -1,6 +1,9 @@
 // Energy that contact through a linkage gives to a hand: the seeds are those that gained most while
 // the observer counted forces that weak motors did not render, the tip's way instead of the
 // joints', or nothing for the place within a count.
+#include <string>
+
+#include "device/machines.hpp"
 #include "harness/test.hpp"
 #include "host_sim/bench/passive_hands.hpp"
 
@@ -34,6 +37,19 @@ TEST(Passivity_GainIsCounted_BetweenTicksWithoutContact) {
 // The weight that motors carry half a tick late gave this swinging hand 0.6 mJ.
 TEST(Passivity_CarriedWeight_GivesAMovingHandNoEnergy) {
   CHECK_LE(gain_J(random_run("falcon_like", 500, 36, {})), 5e-5);
+}
+
+// Springs that balance half of that weight, and too much of it.
+TEST(Passivity_CarriedWeightAndSprings_GiveAMovingHandNoEnergy) {
+  for (const double stiffness : {0.05, 0.5}) {
+    const firmtouch::bench::TemporaryFolder folder;
+    std::string text = firmtouch::tools::machine_text("falcon_like");
+    for (const char* const joint : {"0", "1", "2"})
+      text += std::string("spring_") + joint + " " + with_unit(stiffness, "N*m/rad") +
+              "\nrelaxed_" + joint + " 80 deg\n";
+    const std::string path = folder.write("sprung.txt", text);
+    CHECK_LE(gain_J(random_run(path, 500, 36, {})), 5e-5);
+  }
 }
 
 TEST(Passivity_WithoutALimit_ALinkageGivesMore) {

@@ -128,6 +128,16 @@ void add_derating(LinkageDevice& device, Keys& to) {
   }
 }
 
+// Its angle must be given: gravity says where it has to be.
+void add_springs(LinkageDevice& device, Keys& to) {
+  for (int k = 0; k < static_cast<int>(device.joints.joints); ++k) {
+    JointFriction& joint = device.masses.joint[k];
+    to.number(of("spring", k), "N*m/rad", 0, 1000, joint.spring_N_m_per_rad, false);
+    to.number(of("relaxed", k), "rad", -100, 100, joint.relaxed_rad, false);
+    to.keys.back().initial = kNotGiven;
+  }
+}
+
 void add_homing(LinkageDevice& device, Keys& to) {
   for (const char* by : {"stops", "pose"})
     to.words.push_back({"home", by, false, [&device, by] {
@@ -205,6 +215,7 @@ void add_common(LinkageDevice& device, Keys& to) {
   add_index_pulses(device, to);
   add_second_encoders(device, to);
   add_derating(device, to);
+  add_springs(device, to);
   to.flag("walls", "forced", "stable", device.are_walls_forced);
   add_masses(device, to);
 }

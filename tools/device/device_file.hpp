@@ -22,7 +22,7 @@ struct Rod {
   double inertia_kg_m2 = 0;  // about the centre of mass, across the rod
 };
 
-/// What resists a joint's motion, and the cable or belt between its motor and it.
+/// What resists a joint's motion, what balances it, and the cable or belt between its motor and it.
 struct JointFriction {
   double rotor_kg_m2 = 0;                         // of motor and transmission, at the joint
   double cable_N_m_per_rad = 0, cable_N_m_s = 0;  // stiffness, 0 is rigid; damping
@@ -37,6 +37,7 @@ struct JointFriction {
   double noise_counts = 0;             // of its encoder: standard deviation
   double winding_rise_K = 80;          // of its motor at the continuous torque
   double magnet_rise_K = 0, magnet_time_s = 300;
+  double spring_N_m_per_rad = 0, relaxed_rad = 0;  // that balances weight: 0 is none; no torque
 };
 
 /// What the simulator needs, and the compensation of weight.
@@ -88,6 +89,7 @@ struct LinkageDevice {
 ///     index_0 30 deg                  optional, of each joint: also index_period_0, index_within
 ///     continuous_torque_0 90 mN*m     optional, of each joint, with thermal_time_0 5 s;
 ///                                     or continuous_current_0 0.6 A
+///     spring_0 50 mN*m/rad            optional, of each joint, with relaxed_0 90 deg
 ///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
 ///                                     middle), proximal_inertia_0 (default: of an even rod)
 /// `name` stands before the line in messages.
@@ -110,8 +112,11 @@ std::vector<Link> links_of(const LinkageDevice& device);
 /// Where the weight of the links acts.
 device::Load load_of(const LinkageDevice& device);
 
-/// The section that the firmware reads: the linkage, with its homing and index pulses or second
-/// encoders, if any.
+/// The motors carry weight that springs balance in part.
+bool has_compensation(const LinkageDevice& device);
+
+/// The section that the firmware reads: the linkage, with its homing, index pulses or second
+/// encoders, thermal limits and springs, if any.
 std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device);
 /// Its first part.
 device::LinkageLayout layout_of(const LinkageDevice& device);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "firmtouch/device/compensation.hpp"
 #include "firmtouch/device/derating.hpp"
 #include "firmtouch/device/index_pulses.hpp"
 #include "firmtouch/device/rules.hpp"
@@ -170,6 +171,21 @@ void check_derating(const std::string& name, const GivenKeys& given, const Linka
 
 constexpr double kMinStribeck_rad_per_s = 1e-3;
 
+// Both of a joint, or none.
+void check_springs(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const std::string end = "_" + std::to_string(k), spring = "spring" + end,
+                      relaxed = "relaxed" + end;
+    if (given.count(spring) == 0 && given.count(relaxed) != 0)
+      refuse(name, given, relaxed, "needs `" + spring + "`, the stiffness of the spring");
+    if (given.count(spring) == 0) continue;
+    if (given.count(relaxed) == 0)
+      refuse(name, given, spring, "needs `" + relaxed + "`, the angle at which it has no torque");
+    if (!(static_cast<float>(device.masses.joint[k].spring_N_m_per_rad) > 0))
+      refuse(name, given, spring, "needs to be above 0");
+  }
+}
+
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
 void check_cables(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
   constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
@@ -213,12 +229,15 @@ core::Verdict check_stored(core::Bytes section) {
   device::IndexPulses index;
   device::SecondEncoders second;
   device::Derating derating;
-  const core::Bytes cold = device::before_derating(section);
+  device::Compensation compensation;
+  const core::Bytes unsprung = device::before_compensation(section);
+  const core::Bytes cold = device::before_derating(unsprung);
   const core::Bytes homed = device::before_index_pulses(cold);
   core::Verdict verdict = open(device::before_second_encoders(homed), linkage, homing);
   if (verdict.ok() && homing.is_open()) verdict = open(cold, linkage, homing, index);
   if (verdict.ok()) verdict = open(cold, linkage, second);
-  return verdict.ok() ? open(section, linkage, derating) : verdict;
+  if (verdict.ok()) verdict = open(unsprung, linkage, derating);
+  return verdict.ok() ? open(section, linkage, compensation) : verdict;
 }
 
 void complete_and_check(const std::string& name, const GivenKeys& given, LinkageDevice& device) {
@@ -230,6 +249,7 @@ void complete_and_check(const std::string& name, const GivenKeys& given, Linkage
     refuse(name, given, "second_within",
            "needs `second_0`, the counts of a joint's second encoder");
   check_derating(name, given, device);
+  check_springs(name, given, device);
   if (device.is_homed || device.has_second_encoders || device.is_derated) {
     const std::vector<uint8_t> stored = stored_bytes_of(device);
     refuse_broken(name, given, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));

@@ -117,6 +117,13 @@ device::LinkageLayout layout_of(const LinkageDevice& device) {
   return to;
 }
 
+bool has_compensation(const LinkageDevice& device) {
+  if (!(device.carried_share > 0)) return false;
+  for (const JointFriction& joint : device.masses.joint)
+    if (joint.spring_N_m_per_rad > 0) return true;
+  return false;
+}
+
 std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
   std::vector<uint8_t> bytes;
   append(bytes, layout_of(device));
@@ -147,6 +154,16 @@ std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
     put(derating.continuous_Nm, device.continuous_Nm, 0, device.joints.joints);
     put(derating.time_s, device.thermal_time_s, 0, device.joints.joints);
     append(bytes, derating);
+  }
+  if (has_compensation(device)) {
+    device::CompensationLayout compensation = {};
+    compensation.tag = device::kCompensationTag;
+    for (uint32_t k = 0; k < device.joints.joints; ++k) {
+      const JointFriction& joint = device.masses.joint[k];
+      compensation.spring_Nm_per_rad[k] = static_cast<float>(joint.spring_N_m_per_rad);
+      compensation.relaxed_rad[k] = static_cast<float>(joint.relaxed_rad);
+    }
+    append(bytes, compensation);
   }
   return bytes;
 }

@@ -52,6 +52,7 @@ constexpr Unit kUnits[] = {
     {"N*m*s/rad", "angular damping", 1},
     {"mN*m*s/rad", "angular damping", 1e-3},
     {"N*m/rad", "angular stiffness", 1},
+    {"mN*m/rad", "angular stiffness", 1e-3},
     {"N*m", "torque", 1},
     {"N.m", "torque", 1},
     {"mN*m", "torque", 1e-3},

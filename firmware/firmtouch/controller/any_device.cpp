@@ -117,19 +117,20 @@ uint32_t AnyDevice::texture_state(const Values& values, scene::Stiffening by) co
 // The weight is taken up over ramp_in_s, and let go as fast as a force ramps out. The motors hold
 // the torques for a tick, so they get those of its middle: half a tick late they would give energy
 // to a moving hand (host_sim.Passivity_CarriedWeight_GivesAMovingHandNoEnergy).
-void AnyDevice::carry(const Values& values, bool is_on, const float* largest_Nm,
+void AnyDevice::carry(const Values& values, const Push& push, const float* largest_Nm,
                       float (&torque_Nm)[kMaxJoints]) {
   const float tick_s = values[params::kTickPeriod];
   const float share = linkage_.layout().carried_share;
   const float ahead = carried_ > 0.0f ? 0.5f : 0.0f;  // of the change since the last tick
-  if (is_on) {
+  if (push.is_on) {
     const float ramp_s = values[params::kRampIn];
     carried_ = ramp_s > tick_s ? at_most(carried_ + tick_s / ramp_s, 1.0f) : 1.0f;
   } else {
     carried_ = carried_ > tick_s / servo::kRampOut_s ? carried_ - tick_s / servo::kRampOut_s : 0.0f;
   }
   if (!(share > 0.0f && carried_ > 0.0f)) return;
-  const Vec3 whole_Nm = carrying_torques_Nm(linkage_, angle_rad_, pose_);
+  Vec3 whole_Nm = carrying_torques_Nm(linkage_, angle_rad_, pose_);
+  if (push.spring_Nm != nullptr) whole_Nm = whole_Nm - *push.spring_Nm;
   const float carrying_Nm[kMaxJoints] = {whole_Nm.x, whole_Nm.y, whole_Nm.z};
   for (uint32_t k = 0; k < linkage_.layout().joints; ++k) {
     const float most_Nm = share * largest_Nm[k];
@@ -181,7 +182,7 @@ bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& 
   const float* const largest_Nm =
       push.largest_Nm != nullptr ? push.largest_Nm : linkage_.layout().max_torque_Nm;
   float carrying_Nm[kMaxJoints] = {};
-  carry(values, push.is_on, largest_Nm, carrying_Nm);
+  carry(values, push, largest_Nm, carrying_Nm);
   device::TorqueLimits limits = linkage_.limits();
   for (uint32_t k = 0; k < linkage_.layout().joints; ++k)
     limits.max_torque_Nm[k] = largest_Nm[k] - size(carrying_Nm[k]);

@@ -66,13 +66,16 @@ class AnyDevice : public DevicePolicy {
   bool drive(const params::Values& values, const Push& push, const device::JointTorques& wanted,
              servo::GuardState& guard, record::TickOutput& output);
 
+  /// Of the last sample.
+  const float (&angle_rad() const)[device::kMaxJoints] { return angle_rad_; }
+
   core::Bytes section_;
   device::StoredLinkage linkage_;
   float before_Nm_[device::kMaxJoints] = {};  // torques of the last tick
   Rendered rendered_;
 
  private:
-  void carry(const params::Values& values, bool is_on, const float* largest_Nm,
+  void carry(const params::Values& values, const Push& push, const float* largest_Nm,
              float (&torque_Nm)[device::kMaxJoints]);
   bool knows_walls() const { return linkage_.is_open() && linkage_.layout().least_mass_kg > 0.0f; }
   bool is_stable(const params::Values& values, float stiffness_N_per_m,

@@ -17,6 +17,8 @@ struct Push {
   bool cut = false;       // no force at all
   // Of each joint of a linkage the largest torque, or null: that of the asset.
   const float* largest_Nm = nullptr;
+  // Of a linkage: torques on its joints of what balances its weight, or null.
+  const math::Vec3* spring_Nm = nullptr;
 };
 
 /// What became of the force of the last tick, for the observer of energy.

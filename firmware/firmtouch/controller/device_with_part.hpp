@@ -3,6 +3,9 @@
 
 namespace firmtouch {
 
+/// The state of a part without one.
+struct NoState {};
+
 /// A device, and a part that the asset may store behind what `Base` reads of its section; kBefore
 /// cuts it off. `PartState` is what ticks leave of it, anew after reset().
 template <class Base, class Part, class PartState, core::Bytes (*kBefore)(core::Bytes)>

@@ -1,5 +1,5 @@
 #pragma once
-#include "firmtouch/controller/derated_device.hpp"
+#include "firmtouch/controller/compensated_device.hpp"
 #include "firmtouch/controller/mesh_tool.hpp"
 #include "firmtouch/controller/objects_controller.hpp"
 
@@ -8,12 +8,14 @@ namespace firmtouch {
 template <class Mesh>
 using SurfacesWithTool = Surfaces<MeshTool, MeshObjects, Mesh, SplineSurface>;
 
+using EveryDevice = CompensatedDevice<DeratedDevice<RedundantDevice<IndexedDevice>>>;
+
 /// Every part of the library, several objects, materials of triangles, a tool of several
-/// spheres (part `tool`), index pulses, second encoders and thermal limits (parts `index_pulses`,
-/// `second_encoders`, `derating`). The same parameters, and the same bits for an asset without any
-/// of these. What the simulator runs.
-class ToolController : public EveryPart<OneScene, DeratedDevice<RedundantDevice<IndexedDevice>>,
-                                        FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>> {
+/// spheres (part `tool`), index pulses, second encoders, thermal limits and balancing springs
+/// (parts `index_pulses`, `second_encoders`, `derating`, `compensation`). The same parameters, and
+/// the same bits for an asset without any of these. What the simulator runs.
+class ToolController : public EveryPart<OneScene, EveryDevice, FullMaterialMesh,
+                                        SurfacesWithTool<FullMaterialMesh>> {
  public:
   const scene::StoredMaterials& materials() const {
     return surface<FullMaterialMesh>().materials();
@@ -25,7 +27,7 @@ class ToolController : public EveryPart<OneScene, DeratedDevice<RedundantDevice<
 };
 
 /// With room for the next asset.
-using SwappingToolController = EveryPart<TwoScenes, DeratedDevice<RedundantDevice<IndexedDevice>>,
-                                         FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>>;
+using SwappingToolController =
+    EveryPart<TwoScenes, EveryDevice, FullMaterialMesh, SurfacesWithTool<FullMaterialMesh>>;
 
 }  // namespace firmtouch

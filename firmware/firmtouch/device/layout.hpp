@@ -78,4 +78,15 @@ struct DeratingLayout {
 };
 static_assert(sizeof(DeratingLayout) == 24);
 
+/// Springs that balance the weight, behind all else in the same section, so that a program without
+/// part `compensation` rejects it (R712). Both 0 of a joint without one.
+struct CompensationLayout {
+  uint32_t tag;  // kCompensationTag
+  float spring_Nm_per_rad[3];
+  float relaxed_rad[3];  // the angle at which a spring has no torque
+};
+static_assert(sizeof(CompensationLayout) == 28);
+
+constexpr uint32_t kCompensationTag = 0x504D4F43;  // "COMP"; as a float 1.4e10
+
 }  // namespace firmtouch::device

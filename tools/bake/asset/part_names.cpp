@@ -1,6 +1,7 @@
 #include "bake/asset/part_names.hpp"
 
 #include "firmtouch/controller/needed_parts.hpp"
+#include "firmtouch/device/compensation.hpp"
 #include "firmtouch/device/derating.hpp"
 #include "firmtouch/device/index_pulses.hpp"
 #include "firmtouch/device/second_encoders.hpp"
@@ -14,13 +15,15 @@ std::vector<std::string> needed_part_names(const asset::Container& asset) {
     if ((parts >> number & 1u) != 0) names.emplace_back(part_name(number));
   for (uint32_t i = 0; i < asset.section_count(); ++i) {
     if (asset.type(i) != device::kLinkageSection) continue;
-    const core::Bytes whole = asset.section(i), cold = device::before_derating(whole);
+    const core::Bytes whole = asset.section(i), unsprung = device::before_compensation(whole);
+    const core::Bytes cold = device::before_derating(unsprung);
     const core::Bytes homed = device::before_index_pulses(cold);
     const core::Bytes first = device::before_second_encoders(homed);
     if (first.size() == sizeof(device::HomedLinkageLayout)) names.emplace_back("homing");
     if (homed.size() < cold.size()) names.emplace_back("index_pulses");
     if (first.size() < homed.size()) names.emplace_back("second_encoders");
-    if (cold.size() < whole.size()) names.emplace_back("derating");
+    if (cold.size() < unsprung.size()) names.emplace_back("derating");
+    if (unsprung.size() < whole.size()) names.emplace_back("compensation");
   }
   return names;
 }

@@ -1,0 +1,27 @@
+#pragma once
+#include "firmtouch/core/span.hpp"
+#include "firmtouch/device/stored_linkage.hpp"
+
+// Springs that balance a linkage's weight: its motors carry what they leave of it.
+namespace firmtouch::device {
+
+/// As an asset stores them, behind all else of the linkage.
+class Compensation : public StoredPart<CompensationLayout> {
+  friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensation& to);
+};
+
+/// What is before the compensation in a section of type kLinkageSection. Its tag is beyond the
+/// range of every other word of such a section.
+core::Bytes before_compensation(core::Bytes section);
+
+/// Proves the compensation of a section of type kLinkageSection. `to` is open only where the
+/// section has one and the verdict is passed. The bytes must outlive it. Pre: linkage.is_open(), of
+/// this section. Bounds: constant.
+core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensation& to);
+
+/// Torques of the springs on the joints: stiffness x (relaxed angle - angle).
+/// Pre: compensation.is_open(). Bounds: constant. Result: finite for angles within 200 rad.
+math::Vec3 spring_torques_Nm(const Compensation& compensation,
+                             const float (&angle_rad)[kMaxJoints]);
+
+}  // namespace firmtouch::device

@@ -1,0 +1,150 @@
+// Balancing springs: each word as it is stored is broken alone, in every section that may have
+// them; their torques against the gradient of their energy.
+#include "firmtouch/device/compensation.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "device/stored_bar.hpp"
+#include "firmtouch/device/derating.hpp"
+#include "firmtouch/device/index_pulses.hpp"
+#include "firmtouch/device/rules.hpp"
+#include "firmtouch/device/second_encoders.hpp"
+#include "harness/float_bits.hpp"
+#include "harness/random.hpp"
+#include "harness/test.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+
+namespace {
+
+struct Stored {
+  device::LinkageLayout linkage;
+  device::CompensationLayout compensation;
+};
+
+// Of its two joints the second has no spring.
+Stored bar() {
+  Stored to = {};
+  to.linkage = device_test::stored_bar(2200);
+  to.compensation.tag = device::kCompensationTag;
+  to.compensation.spring_Nm_per_rad[0] = 0.05f;
+  to.compensation.relaxed_rad[0] = 1.5f;
+  return to;
+}
+
+core::Bytes bytes_of(const Stored& stored) {
+  return {reinterpret_cast<const uint8_t*>(&stored), sizeof stored};
+}
+
+core::Verdict opened(const Stored& stored, device::Compensation& to) {
+  const core::Bytes bytes = bytes_of(stored);
+  device::StoredLinkage linkage, none;
+  CHECK_EQ(open(device::before_compensation(bytes), linkage).rule, 0u);
+  CHECK_EQ(open(bytes, none).rule, uint16_t{device::kRuleLinkageSize});
+  const core::Verdict verdict = open(bytes, linkage, to);
+  CHECK(to.is_open() == verdict.ok());
+  return verdict;
+}
+
+void check_broken(uint32_t joint, float spring, float relaxed_rad, uint32_t element) {
+  Stored stored = bar();
+  stored.compensation.spring_Nm_per_rad[joint] = spring;
+  stored.compensation.relaxed_rad[joint] = relaxed_rad;
+  device::Compensation to;
+  const core::Verdict verdict = opened(stored, to);
+  CHECK_EQ(verdict.rule, uint16_t{device::kRuleCompensation});
+  CHECK_EQ(verdict.element, element);
+}
+
+double wide(float a) { return static_cast<double>(a); }
+
+}  // namespace
+
+TEST(Compensation_EachWordIsBrokenAlone) {
+  const float nan = test::nan_value();
+  device::Compensation to;
+  CHECK(opened(bar(), to).ok());
+  check_broken(0, 0, 1, 0);
+  check_broken(0, -0.0f, 0, 0);
+  check_broken(0, -0.05f, 1, 0);
+  check_broken(0, nan, 1, 0);
+  check_broken(1, 1000.1f, 1, 1);
+  check_broken(2, 0.05f, 1, 2);  // no such joint
+  check_broken(0, 0.05f, nan, 3);
+  check_broken(0, 0.05f, -100.1f, 3);
+  check_broken(1, 0.05f, 100.1f, 4);
+  check_broken(0, 0, 0, 6);
+}
+
+// A section is as long with other parts, and a tag alone makes it one with springs.
+TEST(Compensation_OfEverySection_IsFoundByItsTag) {
+  constexpr uint32_t kHoming = sizeof(device::HomingLayout), kIndex = sizeof(device::IndexLayout),
+                     kSecond = sizeof(device::SecondEncodersLayout),
+                     kHeat = sizeof(device::DeratingLayout);
+  const uint32_t before[] = {
+      0,     kSecond,         kHoming,         kHoming + kSecond,         kHoming + kIndex,
+      kHeat, kSecond + kHeat, kHoming + kHeat, kHoming + kSecond + kHeat, kHoming + kIndex + kHeat};
+  for (const uint32_t more : before) {
+    std::vector<float> words((sizeof(device::LinkageLayout) + more + 28) / 4, 1.0f);
+    const core::Bytes bytes(reinterpret_cast<const uint8_t*>(words.data()),
+                            static_cast<uint32_t>(4 * words.size()));
+    CHECK_EQ(device::before_compensation(bytes).size(), bytes.size());
+    std::memcpy(&words[words.size() - 7], &device::kCompensationTag, 4);
+    CHECK_EQ(device::before_compensation(bytes).size(), bytes.size() - 28);
+    CHECK_EQ(device::before_compensation(device::before_compensation(bytes)).size(),
+             bytes.size() - 28);
+  }
+  const Stored stored = bar();
+  for (uint32_t size = 0; size < sizeof stored; ++size)
+    CHECK_EQ(device::before_compensation({bytes_of(stored).data(), size}).size(), size);
+}
+
+// A program without the part rejects a section with it, whatever it takes its words for.
+TEST(Compensation_ProgramsWithoutIt_RejectIt) {
+  struct Hot {
+    device::LinkageLayout linkage;
+    device::DeratingLayout derating;  // of the second motor alone: its first word is 0
+    device::CompensationLayout compensation;
+  };
+  Hot hot = {};
+  hot.linkage = bar().linkage;
+  hot.derating.continuous_Nm[1] = 0.1f;
+  hot.derating.time_s[1] = 5;
+  hot.compensation = bar().compensation;
+  const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&hot), sizeof hot);
+  device::StoredLinkage linkage;
+  device::StoredHoming homing;
+  const core::Bytes homed = device::before_second_encoders(bytes);
+  CHECK_EQ(homed.size(), sizeof(device::HomedLinkageLayout));  // its size alone misleads
+  CHECK_EQ(open(homed, linkage, homing).rule, uint16_t{device::kRuleHoming});
+}
+
+// Central differences of stiffness (angle - relaxed)^2 / 2.
+TEST(SpringTorques_AreTheGradientOfTheirEnergy) {
+  test::Lcg random(3);
+  for (int i = 0; i < 10000; ++i) {
+    Stored stored = bar();
+    float angle_rad[3] = {random.between(-7, 7), random.between(-7, 7), 0};
+    for (int k = 0; k < 2; ++k) {
+      stored.compensation.spring_Nm_per_rad[k] = random.between(1e-4f, 2);
+      stored.compensation.relaxed_rad[k] = random.between(-7, 7);
+    }
+    device::Compensation to;
+    CHECK(opened(stored, to).ok());
+    const math::Vec3 torque = spring_torques_Nm(to, angle_rad);
+    const float torque_Nm[] = {torque.x, torque.y, torque.z};
+    for (int k = 0; k < 2; ++k) {
+      const double stiffness = wide(stored.compensation.spring_Nm_per_rad[k]);
+      const auto energy_J = [&](double at_rad) {
+        const double off_rad = at_rad - wide(stored.compensation.relaxed_rad[k]);
+        return 0.5 * stiffness * off_rad * off_rad;
+      };
+      const double at_rad = wide(angle_rad[k]);
+      const double expected_Nm = (energy_J(at_rad - 1e-3) - energy_J(at_rad + 1e-3)) / 2e-3;
+      CHECK_LE(std::fabs(wide(torque_Nm[k]) - expected_Nm), 2e-6 * stiffness);
+    }
+    CHECK_EQ(torque_Nm[2], 0.0f);
+  }
+}
