@@ -1,4 +1,6 @@
-// What motors carry of an arm's weight that springs balance, against the gradient of both energies.
+// What motors carry of an arm's weight that springs balance, against the gradient of both energies,
+// and of its joints' friction.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -24,6 +26,8 @@ struct HotSection {
   device::DeratingLayout derating;
   device::CompensationLayout compensation;
 };
+
+constexpr double kFriction_Nm[3] = {0.05, 0, 0.02}, kFrictionShare = 0.75, kFade = 0.1;
 
 Section arm(float share = 0.5f) {
   constexpr double kLow_rad[3] = {-3, -3, -3}, kHigh_rad[3] = {3, 3, 3};
@@ -119,6 +123,65 @@ TEST(CompensatedDevice_SpringsAndWeight_KeepTheirShareOfTheLimit) {
     }
   }
   CHECK_GE(held, 100u);
+}
+
+// Less the springs and the weight, which the same arm without friction carries: share x friction x
+// rate / (|rate| + fade), of the rate in the record's velocity of joint 0.
+TEST(CompensatedDevice_Friction_FollowsTheRates) {
+  Section with = arm();
+  for (int k = 0; k < 3; ++k)
+    with.compensation.friction_Nm[k] = static_cast<float>(kFriction_Nm[k]);
+  with.compensation.friction_share = static_cast<float>(kFrictionShare);
+  with.compensation.friction_fade_rad_per_s = static_cast<float>(kFade);
+  const Asset asset = asset_of(with), bare = asset_of(arm());
+  Rig<> rig(asset), without(bare);
+  uint32_t fast = 0;
+  double before[3] = {};
+  for (int i = 0; i < 3000; ++i) {
+    rig.tick(), without.tick();
+    CHECK_EQ(rig.output.faults, 0u);
+    for (int k = 0; k < 3; ++k) {
+      const double rate = (rig.q[k] - before[k]) / 1e-3;
+      before[k] = rig.q[k];
+      if (i < 400) continue;
+      const double carried_Nm = static_cast<double>(rig.output.motor_N[k]) -
+                                static_cast<double>(without.output.motor_N[k]);
+      const double most_Nm = kFrictionShare * kFriction_Nm[k];
+      CHECK_LE(std::fabs(carried_Nm), most_Nm + 1e-6);
+      // Fast enough that the rate's error changes the law by less than a fiftieth.
+      const double law_Nm = most_Nm * rate / (std::fabs(rate) + kFade);
+      if (std::fabs(rate) > 0.3) CHECK_LE(std::fabs(carried_Nm - law_Nm), 0.02 * most_Nm);
+      fast += std::fabs(rate) > 0.3 && k != 1 ? 1u : 0u;
+    }
+  }
+  CHECK_GE(fast, 3000u);
+  check_replays(rig, asset);
+}
+
+// No rate, of any count, makes weight, springs and friction exceed their share.
+TEST(CompensatedDevice_AnyCounts_FrictionKeepsItsShare) {
+  Section with = arm(0.05f);
+  for (float& friction_Nm : with.compensation.friction_Nm) friction_Nm = 2;
+  with.compensation.friction_share = 0.8f;
+  with.compensation.friction_fade_rad_per_s = 0.001f;
+  const Asset asset = asset_of(with);
+  Rig<> rig(asset);
+  uint32_t random = 1, held = 0;
+  for (int i = 0; i < 20000; ++i) {
+    for (int& count : rig.input.encoder_counts) {
+      random = random * 1664525u + 1013904223u;
+      count += static_cast<int>(random >> 16) % 2001 - 1000;
+      count = std::clamp(count, -2000000, 2000000);
+    }
+    rig.input.command_value = 0;
+    rig.step(i > 3 ? record::kFlagEnable : 0, record::kCommandNone);
+    for (const float torque_Nm : rig.output.motor_N) {
+      CHECK(std::isfinite(torque_Nm));
+      CHECK_LE(std::fabs(torque_Nm), 0.1f);
+      held += std::fabs(torque_Nm) >= 0.1f ? 1u : 0u;
+    }
+  }
+  CHECK_GE(held, 1000u);
 }
 
 // Also one that had springs in the asset before.

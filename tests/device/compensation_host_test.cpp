@@ -75,7 +75,66 @@ TEST(Compensation_EachWordIsBrokenAlone) {
   check_broken(0, 0.05f, nan, 3);
   check_broken(0, 0.05f, -100.1f, 3);
   check_broken(1, 0.05f, 100.1f, 4);
-  check_broken(0, 0, 0, 6);
+  check_broken(0, 0, 0, 10);
+}
+
+TEST(CarriedFriction_EachWordIsBrokenAlone) {
+  const float nan = test::nan_value();
+  const struct {
+    uint32_t joint;
+    float friction_Nm, share, fade;
+    uint32_t element;
+  } kBroken[] = {{0, -0.01f, .5f, .1f, 6}, {1, nan, .5f, .1f, 7},     {1, .301f, .5f, .1f, 7},
+                 {2, .01f, .5f, .1f, 8},  // no such joint
+                 {0, 0, .5f, .1f, 9},      {0, 0, 0, .1f, 9},         {0, .01f, 0, .1f, 9},
+                 {0, .01f, .801f, .1f, 9}, {0, .01f, -.5f, .1f, 9},   {0, .01f, nan, .1f, 9},
+                 {0, .01f, .5f, 0, 9},     {0, .01f, .5f, .0009f, 9}, {0, .01f, .5f, 101, 9},
+                 {0, .01f, .5f, nan, 9}};
+  for (const bool has_spring : {true, false}) {
+    Stored stored = bar();
+    if (!has_spring) stored.compensation = {device::kCompensationTag, {}, {}, {}, 0, 0};
+    device::Compensation to;
+    for (const auto& broken : kBroken) {
+      Stored each = stored;
+      each.compensation.friction_Nm[broken.joint] = broken.friction_Nm;
+      each.compensation.friction_share = broken.share;
+      each.compensation.friction_fade_rad_per_s = broken.fade;
+      const core::Verdict verdict = opened(each, to);
+      CHECK_EQ(verdict.rule, uint16_t{device::kRuleCompensation});
+      CHECK_EQ(verdict.element, broken.element);
+    }
+    stored.compensation.friction_Nm[1] = .3f;
+    stored.compensation.friction_share = .8f;
+    stored.compensation.friction_fade_rad_per_s = .1f;
+    CHECK(opened(stored, to).ok());
+  }
+}
+
+// None of any rate exceeds its share, which is what makes joint and torque passive.
+TEST(FrictionTorques_AreTheLaw_AndNeverAboveTheirShare) {
+  test::Lcg random(7);
+  for (int i = 0; i < 100000; ++i) {
+    Stored stored = bar();
+    stored.compensation.friction_Nm[1] = random.between(1e-4f, .3f);
+    stored.compensation.friction_share = random.between(.01f, .8f);
+    stored.compensation.friction_fade_rad_per_s = random.between(.001f, 10);
+    device::Compensation to;
+    CHECK(opened(stored, to).ok());
+    const float size = std::pow(10.0f, random.between(-8, 8));
+    const float rate[3] = {size, i % 2 == 0 ? size : -size, size};
+    float torque_Nm[3], still_Nm[3];
+    friction_torques_Nm(to, rate, torque_Nm);
+    const device::CompensationLayout& l = stored.compensation;
+    const double most_Nm = wide(l.friction_share) * wide(l.friction_Nm[1]);
+    const double law_Nm =
+        most_Nm * wide(rate[1]) / (std::fabs(wide(rate[1])) + wide(l.friction_fade_rad_per_s));
+    CHECK_LE(std::fabs(wide(torque_Nm[1]) - law_Nm), 4e-7 * most_Nm);
+    CHECK_LE(std::fabs(wide(torque_Nm[1])), most_Nm * (1 + 2e-7));
+    CHECK(std::fabs(torque_Nm[0]) + std::fabs(torque_Nm[2]) <= 0);
+    const float none[3] = {};
+    friction_torques_Nm(to, none, still_Nm);
+    CHECK(std::fabs(still_Nm[1]) <= 0);
+  }
 }
 
 // A section is as long with other parts, and a tag alone makes it one with springs.
@@ -87,14 +146,17 @@ TEST(Compensation_OfEverySection_IsFoundByItsTag) {
       0,     kSecond,         kHoming,         kHoming + kSecond,         kHoming + kIndex,
       kHeat, kSecond + kHeat, kHoming + kHeat, kHoming + kSecond + kHeat, kHoming + kIndex + kHeat};
   for (const uint32_t more : before) {
-    std::vector<float> words((sizeof(device::LinkageLayout) + more + 28) / 4, 1.0f);
+    std::vector<float> words(
+        (sizeof(device::LinkageLayout) + more + sizeof(device::CompensationLayout)) / 4, 1.0f);
     const core::Bytes bytes(reinterpret_cast<const uint8_t*>(words.data()),
                             static_cast<uint32_t>(4 * words.size()));
     CHECK_EQ(device::before_compensation(bytes).size(), bytes.size());
-    std::memcpy(&words[words.size() - 7], &device::kCompensationTag, 4);
-    CHECK_EQ(device::before_compensation(bytes).size(), bytes.size() - 28);
+    std::memcpy(&words[words.size() - sizeof(device::CompensationLayout) / 4],
+                &device::kCompensationTag, 4);
+    CHECK_EQ(device::before_compensation(bytes).size(),
+             bytes.size() - sizeof(device::CompensationLayout));
     CHECK_EQ(device::before_compensation(device::before_compensation(bytes)).size(),
-             bytes.size() - 28);
+             bytes.size() - sizeof(device::CompensationLayout));
   }
   const Stored stored = bar();
   for (uint32_t size = 0; size < sizeof stored; ++size)
@@ -103,20 +165,20 @@ TEST(Compensation_OfEverySection_IsFoundByItsTag) {
 
 // A program without the part rejects a section with it, whatever it takes its words for.
 TEST(Compensation_ProgramsWithoutIt_RejectIt) {
-  struct Hot {
+  struct Redundant {
     device::LinkageLayout linkage;
-    device::DeratingLayout derating;  // of the second motor alone: its first word is 0
+    device::SecondEncodersLayout second;  // of the second joint alone: its first word is 0
     device::CompensationLayout compensation;
   };
-  Hot hot = {};
-  hot.linkage = bar().linkage;
-  hot.derating.continuous_Nm[1] = 0.1f;
-  hot.derating.time_s[1] = 5;
-  hot.compensation = bar().compensation;
-  const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&hot), sizeof hot);
+  Redundant both = {};
+  both.linkage = bar().linkage;
+  both.second.counts_per_rad[1] = 1300;
+  both.second.within_rad = 0.005f;
+  both.compensation = bar().compensation;
+  const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&both), sizeof both);
   device::StoredLinkage linkage;
   device::StoredHoming homing;
-  const core::Bytes homed = device::before_second_encoders(bytes);
+  const core::Bytes homed = device::before_index_pulses(bytes);
   CHECK_EQ(homed.size(), sizeof(device::HomedLinkageLayout));  // its size alone misleads
   CHECK_EQ(open(homed, linkage, homing).rule, uint16_t{device::kRuleHoming});
 }

@@ -86,6 +86,8 @@ TEST(DeviceFile_EveryKey_ConvertsToSi) {
   CHECK(near(static_cast<float>(sprung.masses.joint[1].spring_N_m_per_rad), .05));
   CHECK(near(static_cast<float>(sprung.masses.joint[1].relaxed_rad), 1.5707963));
   CHECK(tools::has_compensation(sprung) && !tools::has_compensation(read(kFiveBar + spring)));
+  CHECK(tools::has_compensation(
+      read(kFiveBar + "coulomb_0 1 mN*m\ncarried_share 0.5\nfriction_share 0.5\n")));
   const LinkageDevice delta = read(kDelta + "tip below\n");
   CHECK(!std::get<device::Delta>(delta.linkage).is_tip_above);
   CHECK(near(std::get<device::Delta>(delta.linkage).side_m, .0045));
@@ -162,6 +164,15 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
   check_refusal(kFiveBar + "spring_1 1e-50 N*m/rad\nrelaxed_1 1 rad\n",
                 "test.device:17: `spring_1` needs to be above 0");
   check_refusal(kFiveBar + "spring_1 1001 N*m/rad\n", "`spring_1` = 1001 N*m/rad is outside");
+  check_refusal(kFiveBar + "coulomb_0 1 mN*m\nfriction_share 0.5\n",
+                "test.device:18: `friction_share` needs `carried_share`");
+  const std::string share = "carried_share 0.5\nfriction_share 0.5\n";
+  check_refusal(kFiveBar + share, "test.device:18: `friction_share` needs `coulomb_0`");
+  check_refusal(kFiveBar + share + "coulomb_1 0.3 N*m\n", "needs `coulomb_1` up to `max_torque_1`");
+  check_refusal(kFiveBar + share + "coulomb_1 1 mN*m\nrotor_1 1e-5 kg*m2\ncable_1 9 N*m/rad\n",
+                "needs a joint without `cable_1`");
+  check_refusal(kFiveBar + "coulomb_0 -1 mN*m\n", "is outside 0 to 100");
+  check_refusal(kFiveBar + "friction_share 0.9\n", "`friction_share` = 0.9 is outside 0 to 0.8");
   const std::string thermal = "continuous_torque_1 0.1 N*m\nthermal_time_1 ";
   check_refusal(kFiveBar + edited(thermal, "0.1", "0.21") + "5 s\n",
                 "test.device:17: `continuous_torque_1` needs to be above 0, from `home_torque_`");

@@ -210,7 +210,7 @@ BakedInput bake_device(const std::string& path) {
         (device.is_homed ? "homed by the program (part `homing`), " : "") +
         (device.has_second_encoders ? "second encoders (part `second_encoders`), " : "") +
         (device.is_derated ? "thermal limits (part `derating`), " : "") +
-        (has_compensation(device) ? "balancing springs (part `compensation`), " : "") +
+        (has_compensation(device) ? "springs or friction carried (part `compensation`), " : "") +
         std::to_string(bytes_of(baked.sections)) + " bytes"};
     if (least.turns || least.whole < least.poses)
       baked.report.push_back(

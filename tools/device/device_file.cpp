@@ -211,6 +211,8 @@ void add_common(LinkageDevice& device, Keys& to) {
   to.number("gone_at", "", 0, 1, device.limits.gone_at, false);
   to.number("torque_rise", "s", 1e-4, 1, device.torque_rise_s, false);
   to.number("carried_share", "", 0, 0.9, device.carried_share, false);
+  to.number("friction_share", "", 0, 0.8, device.friction_share, false);
+  to.number("friction_fade", "rad/s", 1e-3, 100, device.friction_fade_rad_per_s, false);
   add_homing(device, to);
   add_index_pulses(device, to);
   add_second_encoders(device, to);

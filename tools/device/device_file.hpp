@@ -58,6 +58,8 @@ struct LinkageDevice {
   device::TorqueLimits limits;
   float torque_rise_s = 0.002f;
   float carried_share = 0;
+  float friction_share = 0;  // of the joints' Coulomb friction that the motors carry
+  float friction_fade_rad_per_s = 0.05f;
   MassModel masses;
   bool are_walls_forced = false;  // motors come on beside walls that are not stable
   bool is_homed = false;          // its encoders count from where they are switched on
@@ -90,6 +92,7 @@ struct LinkageDevice {
 ///     continuous_torque_0 90 mN*m     optional, of each joint, with thermal_time_0 5 s;
 ///                                     or continuous_current_0 0.6 A
 ///     spring_0 50 mN*m/rad            optional, of each joint, with relaxed_0 90 deg
+///     friction_share 0.7              optional, of coulomb_0, with carried_share
 ///     proximal_mass_0 20 g            optional, of each link: also proximal_centre_0 (default: the
 ///                                     middle), proximal_inertia_0 (default: of an even rod)
 /// `name` stands before the line in messages.
@@ -112,11 +115,11 @@ std::vector<Link> links_of(const LinkageDevice& device);
 /// Where the weight of the links acts.
 device::Load load_of(const LinkageDevice& device);
 
-/// The motors carry weight that springs balance in part.
+/// The motors carry weight that springs balance in part, or a share of friction.
 bool has_compensation(const LinkageDevice& device);
 
 /// The section that the firmware reads: the linkage, with its homing, index pulses or second
-/// encoders, thermal limits and springs, if any.
+/// encoders, thermal limits, springs and friction, if any.
 std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device);
 /// Its first part.
 device::LinkageLayout layout_of(const LinkageDevice& device);

@@ -186,6 +186,30 @@ void check_springs(const std::string& name, const GivenKeys& given, const Linkag
   }
 }
 
+// Between a rotor and the friction behind its cable nothing takes what the torque gives.
+void check_carried_friction(const std::string& name, const GivenKeys& given,
+                            const LinkageDevice& device) {
+  if (!(device.friction_share > 0)) return;
+  if (!(device.carried_share > 0))
+    refuse(name, given, "friction_share", "needs `carried_share`, within which it is carried");
+  bool has_one = false;
+  for (uint32_t k = 0; k < device.joints.joints; ++k) {
+    const JointFriction& joint = device.masses.joint[k];
+    const std::string end = "_" + std::to_string(k);
+    if (!(static_cast<float>(joint.coulomb_N_m) > 0)) continue;
+    has_one = true;
+    if (joint.coulomb_N_m > static_cast<double>(device.limits.max_torque_Nm[k]))
+      refuse(name, given, "friction_share",
+             "needs `coulomb" + end + "` up to `max_torque" + end + "`");
+    if (joint.cable_N_m_per_rad > 0)
+      refuse(
+          name, given, "friction_share",
+          "needs a joint without `cable" + end + "`: before a cable it would make the rotor ring");
+  }
+  if (!has_one)
+    refuse(name, given, "friction_share", "needs `coulomb_0`, or that of another joint");
+}
+
 // A cable needs a rotor, and one that the simulation's steps of 20 us can follow.
 void check_cables(const std::string& name, const GivenKeys& given, const LinkageDevice& device) {
   constexpr double kMaxRate2 = 1e8;  // of cable over rotor: 1.6 kHz
@@ -250,6 +274,7 @@ void complete_and_check(const std::string& name, const GivenKeys& given, Linkage
            "needs `second_0`, the counts of a joint's second encoder");
   check_derating(name, given, device);
   check_springs(name, given, device);
+  check_carried_friction(name, given, device);
   if (device.is_homed || device.has_second_encoders || device.is_derated) {
     const std::vector<uint8_t> stored = stored_bytes_of(device);
     refuse_broken(name, given, check_stored({stored.data(), static_cast<uint32_t>(stored.size())}));

@@ -121,7 +121,7 @@ bool has_compensation(const LinkageDevice& device) {
   if (!(device.carried_share > 0)) return false;
   for (const JointFriction& joint : device.masses.joint)
     if (joint.spring_N_m_per_rad > 0) return true;
-  return false;
+  return device.friction_share > 0;
 }
 
 std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
@@ -162,7 +162,12 @@ std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
       const JointFriction& joint = device.masses.joint[k];
       compensation.spring_Nm_per_rad[k] = static_cast<float>(joint.spring_N_m_per_rad);
       compensation.relaxed_rad[k] = static_cast<float>(joint.relaxed_rad);
+      if (device.friction_share > 0)
+        compensation.friction_Nm[k] = static_cast<float>(joint.coulomb_N_m);
     }
+    compensation.friction_share = device.friction_share;
+    if (device.friction_share > 0)
+      compensation.friction_fade_rad_per_s = device.friction_fade_rad_per_s;
     append(bytes, compensation);
   }
   return bytes;

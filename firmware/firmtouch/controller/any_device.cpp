@@ -130,13 +130,18 @@ void AnyDevice::carry(const Values& values, const Push& push, const float* large
   }
   if (!(share > 0.0f && carried_ > 0.0f)) return;
   Vec3 whole_Nm = carrying_torques_Nm(linkage_, angle_rad_, pose_);
-  if (push.spring_Nm != nullptr) whole_Nm = whole_Nm - *push.spring_Nm;
+  static constexpr float kNone_Nm[kMaxJoints] = {};
+  const float* friction_Nm = kNone_Nm;
+  if (push.compensating != nullptr) {
+    whole_Nm = whole_Nm - push.compensating->spring_Nm;
+    friction_Nm = push.compensating->friction_Nm;
+  }
   const float carrying_Nm[kMaxJoints] = {whole_Nm.x, whole_Nm.y, whole_Nm.z};
   for (uint32_t k = 0; k < linkage_.layout().joints; ++k) {
     const float most_Nm = share * largest_Nm[k];
     const float middle_Nm = carrying_Nm[k] + (carrying_Nm[k] - weight_Nm_[k]) * ahead;
     weight_Nm_[k] = carrying_Nm[k];
-    const float wanted_Nm = middle_Nm * carried_;
+    const float wanted_Nm = (middle_Nm + friction_Nm[k]) * carried_;
     const float held_Nm = at_most(size(wanted_Nm), most_Nm);
     torque_Nm[k] = wanted_Nm < 0.0f ? -held_Nm : held_Nm;
   }

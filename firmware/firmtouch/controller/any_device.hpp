@@ -68,6 +68,7 @@ class AnyDevice : public DevicePolicy {
 
   /// Of the last sample.
   const float (&angle_rad() const)[device::kMaxJoints] { return angle_rad_; }
+  float rate_rad_per_s(uint32_t joint) const { return joints_.joint[joint].velocity.units_per_s; }
 
   core::Bytes section_;
   device::StoredLinkage linkage_;

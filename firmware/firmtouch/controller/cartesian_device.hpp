@@ -9,6 +9,12 @@
 
 namespace firmtouch {
 
+/// Torques on joints: of springs that balance the weight, and those that carry friction.
+struct Compensating {
+  math::Vec3 spring_Nm;
+  float friction_Nm[record::kAxes] = {};
+};
+
 /// What a tick demands of the motors.
 struct Push {
   math::Vec3 force_N;     // at the tool
@@ -17,8 +23,8 @@ struct Push {
   bool cut = false;       // no force at all
   // Of each joint of a linkage the largest torque, or null: that of the asset.
   const float* largest_Nm = nullptr;
-  // Of a linkage: torques on its joints of what balances its weight, or null.
-  const math::Vec3* spring_Nm = nullptr;
+  // Of a linkage, or null.
+  const Compensating* compensating = nullptr;
 };
 
 /// What became of the force of the last tick, for the observer of energy.

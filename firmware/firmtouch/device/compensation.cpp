@@ -10,6 +10,26 @@ using core::reject;
 
 constexpr float kMaxSpring_Nm_per_rad = 1000.0f;
 constexpr float kMaxAngle_rad = 100.0f;
+constexpr float kMaxFrictionShare = 0.8f;  // real friction changes by a fifth
+constexpr float kMinFade_rad_per_s = 0.001f, kMaxFade_rad_per_s = 100.0f;
+
+// Result: whether a joint has friction. `verdict`: rejected, or as it was.
+bool check_friction(const CompensationLayout& of, const StoredLinkage& linkage,
+                    core::Verdict& verdict) {
+  bool has_one = false;
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    if (is_zero(of.friction_Nm[k])) continue;
+    has_one = true;
+    if (!(of.friction_Nm[k] > 0.0f && of.friction_Nm[k] <= linkage.layout().max_torque_Nm[k]))
+      verdict = reject(kRuleCompensation, 2 * kMaxJoints + k);
+  }
+  const float share = of.friction_share, fade = of.friction_fade_rad_per_s;
+  const bool is_none = is_zero(share) && is_zero(fade);
+  const bool is_some = share > 0.0f && share <= kMaxFrictionShare && fade >= kMinFade_rad_per_s &&
+                       fade <= kMaxFade_rad_per_s;
+  if (has_one ? !is_some : !is_none) verdict = reject(kRuleCompensation, 3 * kMaxJoints);
+  return has_one;
+}
 
 }  // namespace
 
@@ -37,7 +57,10 @@ core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensati
       return reject(kRuleCompensation, kMaxJoints + k);
     has_one = true;
   }
-  if (!has_one) return reject(kRuleCompensation, 2 * kMaxJoints);
+  core::Verdict verdict = core::kPassed;
+  has_one |= check_friction(compensation, linkage, verdict);
+  if (!verdict.ok()) return verdict;
+  if (!has_one) return reject(kRuleCompensation, 3 * kMaxJoints + 1);
   to.layout_ = &compensation;
   return core::kPassed;
 }
@@ -49,6 +72,18 @@ math::Vec3 spring_torques_Nm(const Compensation& compensation,
     return l.spring_Nm_per_rad[k] * (l.relaxed_rad[k] - angle_rad[k]);
   };
   return {of(0), of(1), of(2)};
+}
+
+void friction_torques_Nm(const Compensation& compensation,
+                         const float (&rate_rad_per_s)[kMaxJoints],
+                         float (&torque_Nm)[kMaxJoints]) {
+  const CompensationLayout& l = compensation.layout();
+  const bool has_friction = l.friction_share > 0.0f;
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    const float rate = rate_rad_per_s[k];
+    const float part = rate / (__builtin_fabsf(rate) + l.friction_fade_rad_per_s);
+    torque_Nm[k] = has_friction ? l.friction_share * l.friction_Nm[k] * part : 0.0f;
+  }
 }
 
 }  // namespace firmtouch::device

@@ -78,14 +78,17 @@ struct DeratingLayout {
 };
 static_assert(sizeof(DeratingLayout) == 24);
 
-/// Springs that balance the weight, behind all else in the same section, so that a program without
-/// part `compensation` rejects it (R712). Both 0 of a joint without one.
+/// Springs that balance the weight, and friction, behind all else in the same section, so that a
+/// program without part `compensation` rejects it (R712). 0 where a joint has none.
 struct CompensationLayout {
   uint32_t tag;  // kCompensationTag
   float spring_Nm_per_rad[3];
   float relaxed_rad[3];  // the angle at which a spring has no torque
+  float friction_Nm[3];  // Coulomb friction
+  float friction_share;  // of it that the motors carry; 0: none
+  float friction_fade_rad_per_s;
 };
-static_assert(sizeof(CompensationLayout) == 28);
+static_assert(sizeof(CompensationLayout) == 48);
 
 constexpr uint32_t kCompensationTag = 0x504D4F43;  // "COMP"; as a float 1.4e10
 

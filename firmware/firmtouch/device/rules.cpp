@@ -30,7 +30,7 @@ const char* rule_name(uint16_t rule) {
       "second encoders: 1 to 1e4 counts per rad; within 3 counts and one of the first, to 60",
       "index pulses: home stops; angle; period of 240 counts, margin to range; within 3 to 60",
       "continuous torque: homing's to largest; thermal time: 0.1 s (largest / it)^2 to 1e4",
-      "spring: above 0, to 1000 N m/rad; its relaxed angle within 100 rad"};
+      "spring: to 1000 N m/rad, relaxed within 100 rad; friction: to largest torque, share to 0.8"};
   constexpr uint32_t kCount = sizeof kNames / sizeof kNames[0];
   static_assert(kRuleJointCount + kCount == kRuleCompensation + 1);
   const uint32_t number = uint32_t{rule} - kRuleJointCount;

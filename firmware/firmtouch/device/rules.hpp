@@ -52,8 +52,10 @@ enum Rule : uint16_t {
   // A continuous torque is not above 0, from that of homing to the largest, its thermal time is not
   // from 0.1 s times the square of largest over continuous torque to 10000 s, or there is none.
   kRuleDerating = 720,
-  // A spring's stiffness is not above 0 and at most 1000 N m/rad, its relaxed angle is not within
-  // 100 rad, or it is of no joint, or there is none.
+  // A spring's stiffness is not above 0 and at most 1000 N m/rad, or its relaxed angle is not
+  // within 100 rad; a friction is not above 0 and at most the largest torque, its share is not
+  // above 0 and at most 0.8, or its fade is not 0.001 to 100 rad/s; or one is of no joint, or there
+  // is none.
   kRuleCompensation = 721,
 };
 
