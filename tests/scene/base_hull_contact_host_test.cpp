@@ -63,6 +63,28 @@ std::vector<math::Vec3> way(int count) {
   return points;
 }
 
+// A floor. With little work only a point of a base hull is known.
+struct FloorUnderAHull {
+  math::Vec3 hull_m;
+  static float size_m() { return 1; }
+  scene::Near near(math::Vec3 x_m, query::Budget budget, float) const {
+    scene::Near near;
+    near.work = near.steps = 1;
+    near.sign = 1;
+    near.has_inside = true;
+    near.is_of_base_hull = near.feature.is_of_base_hull = budget.work <= 20;
+    near.is_exact = !near.is_of_base_hull;
+    near.distance_m = near.lower_m = near.is_exact ? x_m.z : math::length(x_m - hull_m);
+    near.feature.kind =
+        near.is_exact ? scene::Feature::Kind::kHalfSpace : scene::Feature::Kind::kBall;
+    if (near.is_exact)
+      near.feature.corner[1] = {0, 0, 1};
+    else
+      near.feature.corner[0] = hull_m;
+    return near;
+  }
+};
+
 }  // namespace
 
 TEST(BudgetExhausted_BaseHullContactIsEarlyNeverLate) {
@@ -157,4 +179,24 @@ TEST(LeavingHand_WithBaseHullAndLittleWork_IsLetGoOrUncertain) {
   }
   CHECK_LT(200u, let_go);
   CHECK_LT(0u, uncertain);
+}
+
+// The hull's point is a little nearer to the tool than the radius, and a little ahead of it.
+TEST(BaseHull_NearerThanTheRadius_LeavingHandIsNotHeldWithoutAFault) {
+  scene::ProxySettings settings;
+  settings.radius_m = 0.05f;
+  FloorUnderAHull floor{{0.049f, 0, 0.053f}};
+  scene::Proxy proxy;
+  for (const float z_m : {0.2f, 0.03f, 0.03f})
+    (void)scene::move_proxy(settings, {0, 0, z_m}, floor, proxy);
+  CHECK_LE(std::fabs(proxy.position_m.z - 0.05f), 1e-5f);
+  settings.budget.work = 20;
+  uint32_t starved = 0;
+  for (int tick = 0; tick < 20; ++tick)
+    starved += scene::move_proxy(settings, {0, 0, 0.03f}, floor, proxy).is_starved ? 1u : 0u;
+  CHECK_EQ(starved, 0u);
+  for (int tick = 0; tick < 20; ++tick)
+    starved += scene::move_proxy(settings, {0, 0, 0.055f}, floor, proxy).is_starved ? 1u : 0u;
+  CHECK(proxy.is_loaded);
+  CHECK_EQ(starved, 20u);
 }

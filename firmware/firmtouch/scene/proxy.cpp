@@ -376,11 +376,15 @@ void ProxyMove::take(const Near& near) {
 
 ProxyMoved ProxyMove::finish() {
   const Vec3 off_m = goal_m_ - proxy_.position_m;
-  proxy_.is_loaded = !(math::dot(off_m, off_m) <= 0.0f);
+  const float off2_m2 = math::dot(off_m, off_m);
+  proxy_.is_loaded = !(off2_m2 <= 0.0f);
   // A proxy that lags by no more than twice what it moved follows the hand: the next tick goes on.
   const float moved_m = math::length(proxy_.position_m - begin_m_);
   proxy_.slid_m += (moved_m - proxy_.slid_m) * settings_.slide_share;
   if (!proxy_.is_loaded) proxy_.slid_m = 0;
+  // Also where most of the way to the hand is open, but the base hull certifies none of it.
+  if (moved_.is_of_base_hull && !(moved_m > 0.0f) && 4.0f * lag_m_ * lag_m_ > off2_m2)
+    moved_.is_starved = true;
   if (proxy_.phase == Proxy::Phase::kFree && moved_m >= 0.5f * lag_m_) moved_.is_starved = false;
   if (moved_.is_optimal) moved_.is_starved = false;
   return moved_;
