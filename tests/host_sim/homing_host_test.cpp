@@ -62,3 +62,22 @@ TEST(Homing_JointsOfUnequalRanges_AreHomed) {
   CHECK_EQ(good.faults[static_cast<uint32_t>(HomingFault::kSettings)], 0u);
   CHECK_GE(good.homed, 32u);
 }
+
+// Both links of an arm are light against its joints' torques: the joint that is driven in truth
+// swings the other one when it meets its stop.
+TEST(Homing_PlanarArmWithSwappedEncoders_IsNamed) {
+  const std::string arm =
+      "linkage serial_arm 2\nlink_0 120 mm\nlink_1 100 mm\nlow_0 -50 deg\nhigh_0 100 deg\n"
+      "low_1 30 deg\nhigh_1 150 deg\ncounts_0 5000 counts/rad\ncounts_1 5000 counts/rad\n"
+      "max_torque_0 1 N*m\nmax_torque_1 0.6 N*m\nlink_mass_0 100 g\nlink_mass_1 60 g\n"
+      "tip_mass 50 g\nrotor_0 1e-5 kg*m2\nrotor_1 1e-5 kg*m2\n";
+  for (const char* elbow : {"", "elbow parallelogram\n"}) {
+    const tools::LinkageDevice device = tools::read_device("arm", arm + elbow);
+    host_sim::HomingTally swapped;
+    for (uint32_t run = 0; run < 40; ++run)
+      add(simulate_homing(device, HomingCase::kSwapped, run), swapped);
+    CHECK_EQ(swapped.homed, 0u);
+    CHECK_EQ(swapped.faults[static_cast<uint32_t>(HomingFault::kTooLong)], 0u);
+    CHECK_GE(swapped.faults[static_cast<uint32_t>(HomingFault::kSwapped)], 24u);
+  }
+}

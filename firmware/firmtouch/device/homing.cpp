@@ -166,9 +166,12 @@ float endless_rad(const HomingSettings& settings, const JointSetting& joint) {
   return range_of(joint) * (1.0f + kMaxExcess) + settings.margin_rad;
 }
 
-// Past the middle of its range: the axis is the right one.
-bool has_gone_up(const HomingState& state, const JointSettings& joints, uint32_t k) {
-  return k < joints.joints && state.far_rad[k] > 0.5f * range_of(joints.joint[k]);
+// Whether a joint has passed the middle of the range of `k`, which is driven. The first one counts:
+// another axis that is driven in truth swings `k` where it meets its stop.
+bool has_one_gone(HomingState& state, const JointSettings& joints, uint32_t k) {
+  for (state.other = k; k < joints.joints && state.other < joints.joints; ++state.other)
+    if (size(state.far_rad[state.other]) > 0.5f * range_of(joints.joint[k])) return true;
+  return false;
 }
 
 // What the travels say of the axes when all joints stand at their low stops, or one of them has
@@ -182,10 +185,10 @@ HomingFault fault_of_axes(HomingState& state, const HomingSettings& settings,
     return HomingFault::kNone;
   }
   const uint32_t k = state.joint = rising(state);
-  if (has_gone_up(state, joints, k)) return HomingFault::kNone;
-  for (state.other = k + 1; state.other < joints.joints; ++state.other)
-    if (size(state.far_rad[state.other]) > 0.5f * range_of(joints.joint[k]))
-      return HomingFault::kSwapped;
+  if (has_one_gone(state, joints, k)) {
+    if (state.other != k) return HomingFault::kSwapped;
+    if (state.far_rad[k] > 0.0f) return HomingFault::kNone;
+  }
   if (state.far_rad[k] < -margin_rad) return HomingFault::kWrongWay;
   if (size(difference(state.counts[k], state.begin[k])) <= kDeadCounts)
     return HomingFault::kDeadEncoder;
@@ -284,7 +287,7 @@ HomingTorques home(HomingState& state, const HomingSettings& settings, const Joi
       if (goes_up(state, k) && !take_pulse(state, settings, joints, sample, k))
         return fail(state, HomingFault::kWrongIndex, k);
     const bool is_still = state.phase_s >= kMinPhase_s && state.still_s >= kStill_s;
-    if (is_still || has_gone_up(state, joints, up) || state.phase_s > kMaxPhase_s)
+    if (is_still || has_one_gone(state, joints, up) || state.phase_s > kMaxPhase_s)
       end_phase(state, settings, joints);
   }
   if (state.is_done || state.fault != HomingFault::kNone) return {};
