@@ -60,6 +60,28 @@ APlanTakesTheProgramsOfYourBuildAndRefusesOthers() {
   f plan box.obj --flash 1M --ram 32 --resources own.json --core m7; exits 2; says 'leave out --core'
 }
 
+APlanTakesAProgramThatHasEachPartOfTheAsset() {
+  box_obj usemtl >box.obj; feel >feel.txt
+  image() { printf '{"board": "mine", "parts": "%s", "flash": %d, "ram": 20, "record_ring": 7, "stack": {"opening": 3, "lock_step": 5, "running": 4}}' "$1" "$2"; }
+  # `all` is not every part: materials, objects, tools and homing are named.
+  printf '[%s, %s, %s]' "$(image all 900)" "$(image 'all;materials' 1000)" "$(image 'all;homing' 1100)" >own.json
+  f plan box.obj --materials feel.txt --flash 1M --ram 32 --resources own.json; exits 0
+  printf '%s\n' "$out" | grep -q '^program: the parts all;materials, at most 1000 bytes' || fail "$out"
+  f plan box.obj --flash 1M --ram 32 --resources own.json; exits 0
+  printf '%s\n' "$out" | grep -q '^program: the parts all, at most 900 bytes' || fail "$out"
+  f plan box.obj --device haply_pantograph --flash 1M --ram 32 --resources own.json; exits 0
+  printf '%s\n' "$out" | grep -q '^program: the parts all, at most 900 bytes' || fail "$out"
+  # What homes a linkage moves one; `all` with a tool has objects.
+  printf '[%s, %s]' "$(image 'mesh;homing' 900)" "$(image 'all;tool' 1000)" >own.json
+  f plan box.obj --device haply_pantograph --flash 1M --ram 32 --resources own.json; exits 0
+  printf '%s\n' "$out" | grep -qE -- '--fast +mesh;homing ' || fail "$out"
+  echo 'object lid of box' >scene.objects
+  f plan box.obj scene.objects --flash 1M --ram 32 --resources own.json; exits 0
+  printf '%s\n' "$out" | grep -q '^program: the parts all;tool, at most 1000 bytes' || fail "$out"
+  f plan box.obj --materials feel.txt --flash 1M --ram 32 --resources own.json; exits 1
+  printf '%s\n' "$out" | grep -qF 'build one with -DFIRMTOUCH_APP="mesh;materials"' || fail "$out"
+}
+
 APlanChoosesThePoolOfATickByWhatTheCoreDoes() {
   f make path -o path.csv; exits 0
   f plan path.csv --flash 1M --ram 64K --rate 1k --mips 460; exits 0

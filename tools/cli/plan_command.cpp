@@ -141,10 +141,19 @@ std::vector<std::string> pools(const Limits& limits, const PlanRow& row) {
   return lines;
 }
 
+std::string parts_text(const PlanRow& row) {
+  std::string text;
+  for (const std::string& part : row.parts) text += (text.empty() ? "" : ";") + part;
+  return text;
+}
+
 // Where nothing fits: what would.
 std::vector<std::string> advice(const Planner& planner, const Limits& limits) {
   const PlanRow& row = planner.least();
-  if (!row.refused.empty()) return {row.refused};
+  if (!row.refused.empty())
+    return {row.refused, "build one with -DFIRMTOUCH_APP=\"" + parts_text(row) +
+                             "\", measure it by tools/check/image, and give its resources.json "
+                             "with --resources"};
   std::vector<std::string> lines;
   if (row.image.whole_ram() > limits.ram)
     lines.push_back("RAM: --ram " + std::to_string(row.image.whole_ram()) +
@@ -205,6 +214,9 @@ bounds; give yours with --resources. Exit code 1 where nothing fits, with what w
                 "resources.json of your own build, which tools/check/image writes"},
                {"--unsigned", nullptr, "as for bake"},
                {"--smooth", nullptr, "as for bake"},
+               {"--device", "FILE", "as for bake"},
+               {"--materials", "FILE", "as for bake"},
+               {"--material-numbers", "FILE", "as for bake"},
                {"--picture", "FILE.svg", "the trade as a picture"},
                {"--json", nullptr, "for programs"}})};
 }

@@ -1,6 +1,7 @@
 #include "cli/plan_images.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "cli/failure.hpp"
@@ -16,8 +17,22 @@ constexpr const char kBudgets[] =
 #include "cli/image_budgets.inc"
     ;
 
-bool has_part(const std::string& parts, const std::string& part) {
+bool lists(const std::string& parts, const std::string& part) {
   return (";" + parts + ";").find(";" + part + ";") != std::string::npos;
+}
+
+// What a part, or two together, bring with them (firmware/app/CMakeLists.txt).
+constexpr struct {
+  const char *part, *other, *brings;
+} kBrought[] = {{"all", "all", "mesh;field;hull;spline;guide;spline_guide;linkage"},
+                {"homing", "homing", "linkage"},
+                {"all", "tool", "objects"}};
+
+bool has_part(const std::string& parts, const std::string& part) {
+  if (lists(parts, part)) return true;
+  return std::any_of(std::begin(kBrought), std::end(kBrought), [&](const auto& row) {
+    return lists(parts, row.part) && lists(parts, row.other) && lists(row.brings, part);
+  });
 }
 
 }  // namespace
@@ -69,12 +84,9 @@ std::vector<Image> measured_images(const std::string& path) {
 const Image* image_for(const std::vector<Image>& images, const std::vector<std::string>& parts) {
   const Image* best = nullptr;
   for (const Image& image : images) {
-    const bool fits =
-        !has_part(image.parts, "trusted") &&
-        std::all_of(parts.begin(), parts.end(), [&](const auto& part) {
-          return has_part(image.parts, part) ||
-                 (has_part(image.parts, "all") && part != "homing");  // all but this one
-        });
+    const bool fits = !has_part(image.parts, "trusted") &&
+                      std::all_of(parts.begin(), parts.end(),
+                                  [&](const auto& part) { return has_part(image.parts, part); });
     if (fits && (best == nullptr || image.flash < best->flash)) best = &image;
   }
   return best;
