@@ -12,6 +12,7 @@
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/device/drawn_links.hpp"
 #include "host_sim/live/live_server.hpp"
+#include "host_sim/report/linkage_data.hpp"
 #include "host_sim/report/page_data.hpp"
 #include "host_sim/report/page_parts.hpp"
 #include "host_sim/trace/log.hpp"
@@ -43,9 +44,10 @@ std::string live_page(const Session* session) {
     const Environment environment = environment_of(*session->controller, {});
     const double radius_m = static_cast<double>(params::kTable[params::kToolRadius].initial);
     const Scene3d scene3d = surface_scene(environment, radius_m);
+    const device::StoredLinkage& stored = session->controller->linkage();
+    const std::string linkage = stored.is_open() ? linkage_data_of(kinematics_of(stored)) : "null";
     scene = "<script>window.firmtouchScene = {" + scene_data_of(scene3d, environment) +
-            ",\"linkage\":" + (session->controller->linkage().is_open() ? "true" : "false") +
-            "};</script>\n";
+            ",\"linkage\":" + linkage + "};</script>\n";
   }
   std::string page = kLiveHtml;
   fill(page, "{{script}}", kLiveJs);
@@ -54,16 +56,6 @@ std::string live_page(const Session* session) {
   fill(page, "{{scene}}", scene);
   fill(page, "{{style}}", kLiveCss);
   return page;
-}
-
-// Answers a tip with the reciprocal condition and the joints; with nothing where it cannot be.
-std::string joints_text(TipFollower& tip, Vec tip_m) {
-  const JointMotion* at = tip.at(tip_m);
-  if (at == nullptr) return "";
-  std::string text = tools::json_number(reciprocal_condition(tip.device(), *at));
-  for (const Vec& joint : joints_m(tip.device(), *at))
-    for (const double c : {joint.x, joint.y, joint.z}) text += " " + tools::json_number(c);
-  return text;
 }
 
 int serve_live(const cli::Arguments& options) {
@@ -79,12 +71,8 @@ int serve_live(const cli::Arguments& options) {
   const std::string where = options.positionals()[0];
   const double port = options.number("--port", 5678, 1);
   if (!(port <= 65535)) options.refuse("--port: a number up to 65535 is needed");
-  std::function<std::string(Vec)> joints_of;
-  if (session && session->controller->linkage().is_open())
-    joints_of = [tip = TipFollower(kinematics_of(session->controller->linkage()))](
-                    Vec tip_m) mutable { return joints_text(tip, tip_m); };
   LiveServer server(static_cast<uint16_t>(port), live_page(session ? &*session : nullptr),
-                    connect_stream(where, wait_s(options)), std::move(joints_of));
+                    connect_stream(where, wait_s(options)));
   std::cerr << "http://127.0.0.1:" << static_cast<int>(port) << "/   (Ctrl-C ends)\n";
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

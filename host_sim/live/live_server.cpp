@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "firmtouch/link/frame.hpp"
@@ -23,7 +22,6 @@ constexpr size_t kMaxHead = 16384;
 // A browser that does not read loses records, and nothing else.
 constexpr size_t kMaxWaiting = 4u << 20;
 constexpr size_t kMaxClients = 32;
-constexpr double kMaxReach_m = 100;
 
 std::string response(const std::string& status, const std::string& type, const std::string& body) {
   return "HTTP/1.1 " + status + "\r\nContent-Type: " + type +
@@ -35,12 +33,8 @@ std::string response(const std::string& status, const std::string& type, const s
 
 }  // namespace
 
-LiveServer::LiveServer(uint16_t port, std::string page, std::unique_ptr<ByteStream> stream,
-                       std::function<std::string(Vec)> joints_of)
-    : port_(port),
-      page_(std::move(page)),
-      stream_(std::move(stream)),
-      joints_of_(std::move(joints_of)) {
+LiveServer::LiveServer(uint16_t port, std::string page, std::unique_ptr<ByteStream> stream)
+    : port_(port), page_(std::move(page)), stream_(std::move(stream)) {
   listener_ = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const int on = 1;
   ::setsockopt(listener_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -182,19 +176,9 @@ void LiveServer::take(Client& client, const Message& message) {
   if (message.opcode == Opcode::kPing)
     client.waiting += message_of(Opcode::kPong, message.payload.data(), message.payload.size());
   if (message.opcode == Opcode::kText && message.payload == "take") give_link(client.socket);
-  if (message.opcode == Opcode::kText && joints_of_) answer_joints(client, message.payload);
   if (message.opcode == Opcode::kBinary && client.socket == holder_)
     stream_->write(reinterpret_cast<const uint8_t*>(message.payload.data()),
                    static_cast<uint32_t>(message.payload.size()));
-}
-
-// "joints X Y Z": of the tip, in metres of the device frame.
-void LiveServer::answer_joints(Client& client, const std::string& text) const {
-  Vec tip_m;
-  if (std::sscanf(text.c_str(), "joints %lf %lf %lf", &tip_m.x, &tip_m.y, &tip_m.z) != 3 ||
-      !(norm(tip_m) < kMaxReach_m) || client.waiting.size() > kMaxWaiting)
-    return;
-  send_text(client, "joints " + joints_of_(tip_m));
 }
 
 void LiveServer::read_controller() try {

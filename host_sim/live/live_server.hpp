@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,7 +7,6 @@
 #include "firmtouch/link/decoder.hpp"
 #include "host_sim/controllers/byte_stream.hpp"
 #include "host_sim/live/web_socket.hpp"
-#include "host_sim/plant/vec.hpp"
 
 namespace firmtouch::host_sim {
 
@@ -19,9 +17,7 @@ namespace firmtouch::host_sim {
 class LiveServer {
  public:
   /// Listens on 127.0.0.1. Throws Refused if the port is taken. `stream`: nullptr: page only.
-  /// `joints_of`: answers a page that queries the joints of a tip; null: none is answered.
-  LiveServer(uint16_t port, std::string page, std::unique_ptr<ByteStream> stream,
-             std::function<std::string(Vec)> joints_of = {});
+  LiveServer(uint16_t port, std::string page, std::unique_ptr<ByteStream> stream);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;
   LiveServer& operator=(const LiveServer&) = delete;
@@ -41,7 +37,6 @@ class LiveServer {
   void read(Client& client);
   void answer(Client& client, const std::string& head);
   void take(Client& client, const Message& message);
-  void answer_joints(Client& client, const std::string& text) const;
   void read_controller();
   void give_link(int socket);
   void send_text(Client& client, const std::string& text) const;
@@ -52,7 +47,6 @@ class LiveServer {
   uint16_t port_;
   std::string page_;
   std::unique_ptr<ByteStream> stream_;
-  std::function<std::string(Vec)> joints_of_;
   link::Decoder decoder_;
   uint32_t rejects_ = 0;
   std::vector<Client> clients_;

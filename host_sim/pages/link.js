@@ -99,7 +99,7 @@ async function openServer(take, ended) {
   // The server says first whose the link is; this waits until it is this page's.
   const port = { name: 'firmtouch-sim live', decimation: 1, tries: kTries, rejects: 0, messages: 0,
     write: bytes => { if (socket.readyState === WebSocket.OPEN) socket.send(bytes); },
-    takeOver: () => socket.send('take'), requestJoints: tip_m => port.write(`joints ${tip_m.join(' ')}`), close: () => socket.close() };
+    takeOver: () => socket.send('take'), close: () => socket.close() };
   await new Promise((done, failed) => {
     socket.onmessage = event => {
       if (typeof event.data !== 'string') { ++port.messages; return take(new Uint8Array(event.data)); }
@@ -107,7 +107,6 @@ async function openServer(take, ended) {
       if (word === 'yours') { isMine = true; page.held(null); done(); }
       if (word === 'held' && isMine) { ended('another page took the link over'); socket.close(); } else if (word === 'held' && !isMine) page.held(port);
       if (word === 'rejects') port.rejects = Number(rest);
-      if (word === 'joints') page.takeJoints(rest.trim().split(' ').filter(Boolean).map(Number));
       if (word === 'closed') why = rest;
     };
     socket.onclose = () => { failed(new Error(why)); ended(why); };

@@ -5,7 +5,7 @@ const kTrail = 400, kArrow = 0.6, kRecordLimit = 2000000;
 const page = {
   session: null, store: null, plots: [], parameters: [], paused: false, frame: 0, style: {}, lamps: [], state: null,
   armed: false, flow: { at_ms: 0, records: 0, bytes: 0 }, draws: 0, seconds: 5, back: 0, newest: 0, recording: null, peak_N: 1,
-  chains: [], far: 0, requestedAt_ms: -Infinity,
+  chains: [], far: 0, linkage: null,
 
   say(kind, what) {
     const banner = $('banner');
@@ -236,20 +236,11 @@ const page = {
     const held = axis => this.parameters.find(one => one.row.name === `scene_${axis}_m`)?.held || 0;
     return p.map((v, k) => (v - held('xyz'[k]) - this.scene.centre[k]) / this.scene.radius_m);
   },
-  // Of a linkage the server answers where its joints are: the reciprocal condition, then base and elbow of each chain.
-  hasJoints() { return this.scene.linkage && this.session.port.requestJoints; },
-  requestJoints(tip_m) {
-    const now_ms = performance.now();
-    if (!this.hasJoints() || now_ms - this.requestedAt_ms < 1000) return;
-    this.requestedAt_ms = now_ms;
-    this.requestedTip_m = tip_m;
-    this.session.port.requestJoints(tip_m);
-  },
-  takeJoints([condition, ...values]) {
-    this.requestedAt_ms = -Infinity;
-    this.condition = condition;
-    this.chains = [];
-    for (let i = 0; i < values.length; i += 6) this.chains.push(values.slice(i, i + 3), values.slice(i + 3, i + 6), this.requestedTip_m, null);
+  // Base and elbow of each chain of a linkage, which ends at the tip; none where it cannot be.
+  takeTip(tip_m) {
+    if (!this.linkage) return;
+    this.condition = this.linkage.reciprocalCondition(tip_m);
+    this.chains = (this.linkage.at(tip_m)?.chains || []).flatMap(([base, elbow]) => [base, elbow, tip_m, null]);
     const points = this.chains.filter(Boolean).map(p => this.normal(p)), far = Math.max(0, ...points.map(p => Math.hypot(...p)));
     if (far <= 1.1 * this.far) return;
     this.far = far;
@@ -263,10 +254,10 @@ const page = {
     const each = Math.max(1, Math.floor(5000 / session.decimation / kTrail)), trail = [];
     for (let i = Math.max(store.first, store.count - each * kTrail); i < store.count; i += each) trail.push(normal(store.vector(position, store.baseOf(i))));
     this.stage.trail = trail;
-    this.requestJoints(store.vector(position, this.state));
+    this.takeTip(store.vector(position, this.state));
     this.stage.setTool(normal(store.vector(position, this.state)), newton.map(v => v / this.peak_N * kArrow), [0, 0, 0], this.chains.map(p => p && normal(p)));
     const condition = this.condition > 0 ? (1 / this.condition).toFixed(2) : 'unknown';
-    $('newton').textContent = (this.hasJoints() ? `condition ${condition} \u00B7 ` : '') + `${Math.hypot(...newton).toFixed(2)} N`;
+    $('newton').textContent = (this.linkage ? `condition ${condition} \u00B7 ` : '') + `${Math.hypot(...newton).toFixed(2)} N`;
   },
   readStyle() {
     const css = getComputedStyle(document.documentElement), of = name => css.getPropertyValue(name).trim();
@@ -296,6 +287,7 @@ const page = {
 };
 
 page.scene = window.firmtouchScene || kEmptyScene;
+if (page.scene.linkage) page.linkage = new Linkage(page.scene.linkage);
 page.stage = new View3d($('stage'), page.scene);
 $('connect').onclick = () => page.connect(openServer);
 $('serial').onclick = () => {

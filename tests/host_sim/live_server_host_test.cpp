@@ -31,8 +31,7 @@ struct Served {
     for (port = static_cast<uint16_t>(30000 + ::getpid() % 20000); server == nullptr; ++port) try {
         server = std::make_unique<LiveServer>(
             port, "<html>the page</html>",
-            std::make_unique<ByteStream>(ends[1], ends[1], "controller"),
-            [](host_sim::Vec tip_m) { return tip_m.x > 0 ? "0.5 1 2 3 4 5 6" : ""; });
+            std::make_unique<ByteStream>(ends[1], ends[1], "controller"));
       } catch (const host_sim::Refused&) {
         CHECK_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
         controller = ends[0];
@@ -136,18 +135,6 @@ TEST(LiveServer_ForeignNameOrOrigin_IsRefused) {
   CHECK(has(Browser(served).upgrade("http://evil.example"), refused));
   CHECK(has(Browser(served).upgrade("null"), refused));
   CHECK(has(Browser(served).upgrade("https://127.0.0.1:" + std::to_string(served.port)), refused));
-}
-
-TEST(LiveServer_JointsOfATip_AreAnsweredAndNonsenseIsNot) {
-  Served served;
-  Browser browser(served);
-  browser.page();
-  CHECK(has(browser.send(masked(1, "joints 0.1 0.2 -0.3")), "joints 0.5 1 2 3 4 5 6"));
-  CHECK(has(browser.send(masked(1, "joints -0.1 0 0")), "joints "));
-  for (const char* nonsense : {"joints", "joints 1 2", "joints nan 0 0", "joints inf 0 0",
-                               "joints 1e300 0 0", "joints x y z", "joint 1 2 3"})
-    CHECK(browser.send(masked(1, nonsense)).empty());
-  CHECK(has(browser.send(masked(1, "joints 1 1 1 and more")), "joints 0.5"));
 }
 
 TEST(LiveServer_Handshake_AnswersAsTheStandardsExample) {

@@ -206,11 +206,28 @@ void plots(Test& test) {
                           2));
 }
 
+// Of three chains at 120 degrees: links and rods as long as they are, a knee that is in its range,
+// and no tip on the other side. Straight above the middle all directions are closed forms.
+constexpr const char* kDelta =
+    "(() => { const chain = turn => ({ base: [0.03 * Math.cos(turn), 0.03 * Math.sin(turn), 0], "
+    "out: [Math.cos(turn), Math.sin(turn), 0], up: [0, 0, 1], link: 0.06, rod: 0.1, range: [-1, "
+    "1.5] }); const of = { chains: [0, 1, 2].map(k => chain(k * 2 * Math.PI / 3)), turntable: "
+    "null, second: null, isRelative: false, side: 1 }, tip = [0.01, -0.02, 0.08], d = (a, b) => "
+    "Math.hypot(...a.map((v, k) => v - b[k])), delta = new Linkage(of), at = delta.at(tip); if "
+    "(at.angles.length !== 3 || at.angles.some(v => v < -1 || v > 1.5)) return 'angles'; if "
+    "(at.chains.some(([base, elbow]) => Math.abs(d(base, elbow) - 0.06) > 1e-12 || "
+    "Math.abs(d(elbow, tip) - 0.1) > 1e-12)) return 'lengths'; if (new Linkage({ ...of, side: -1 "
+    "}).at(tip) || delta.at([0, 0, 0.2])) return 'a tip that cannot be'; const [, [x, , z]] = "
+    "delta.at([0, 0, 0.08]).chains[0], turn = delta.at([0, 0, 0.08]).angles[0], along = -x / 0.1, "
+    "up = (0.08 - z) / 0.1, lift = (up * Math.cos(turn) - along * Math.sin(turn)), s = along / "
+    "Math.SQRT2 / lift, t = up / lift, want = 3 / Math.sqrt((2 / s ** 2 + 1 / t ** 2) * (2 * s ** "
+    "2 + t ** 2)); return Math.abs(delta.reciprocalCondition([0, 0, 0.08]) - want) < 1e-6 ? "
+    "'right' : 'condition'; })()";
+
 // The links of an arm of 133 mm each, whose tip is where the test says.
 void links(Test& test) {
   test.browser.evaluate(
-      "(() => { const request = page.requestJoints.bind(page); page.requestJoints = () => "
-      "request(window.tip); "
+      "(() => { const take = page.takeTip.bind(page); page.takeTip = () => take(window.tip); "
       "window.tip = [0.15, 0.02, 0.03]; })()");
   test.check("links of a linkage are drawn, as long as they are",
              test.becomes("(() => { const s = page.stage, d = (a, b) => page.scene.radius_m * "
@@ -232,6 +249,8 @@ void links(Test& test) {
   test.picture("links");
   test.browser.evaluate(
       "page.parameters.find(p => p.row.name === 'scene_x_m').held = 0, window.tip = [2, 0, 0]");
+  const std::string delta = test.browser.evaluate(kDelta);
+  test.check(("and of a delta: " + delta).c_str(), delta.find("right") != std::string::npos);
   test.check("where its tip cannot be, none, and no condition",
              test.becomes("page.stage.links.length === 0 && "
                           "$('newton').textContent.startsWith('condition unknown')",
@@ -281,6 +300,9 @@ void serial(Test& test) {
   test.check("it connects over a serial port too (a stand-in), at 1 Mbaud",
              test.becomes(kConnected, kConnect_s) && test.becomes("window.baud === 1000000", 1) &&
                  test.becomes("page.session.records > 5", kPatience_s));
+  test.browser.evaluate("window.tip = [0.15, 0.02, 0.03]");
+  test.check("there, too, the links of a linkage are drawn",
+             test.becomes("page.stage.links.length === 4", kPatience_s));
   test.browser.evaluate("window.pullCable()");
   test.check("the cable is pulled: it says so",
              test.becomes("$('banner').textContent.includes('the cable was pulled')", 5));
