@@ -159,6 +159,11 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
                 "test.device:18: `second_within` needs 3 counts");
   check_refusal(kFiveBar + "second_1 0 counts/rad\nsecond_within 1 deg\n",
                 "test.device:18: `second_within` needs a `second_` other than 0");
+  check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n",
+                "test.device:18: `gone_at` needs 0.001 <= gone_at < full_from");
+}
+
+TEST(DeviceFile_MistakesInFrictionSpringsAndHeat_NameTheLineAndTheRemedy) {
   check_refusal(kFiveBar + "relaxed_1 90 deg\n", "test.device:17: `relaxed_1` needs `spring_1`");
   check_refusal(kFiveBar + "spring_1 1 N*m/rad\n", "test.device:17: `spring_1` needs `relaxed_1`");
   check_refusal(kFiveBar + "spring_1 1e-50 N*m/rad\nrelaxed_1 1 rad\n",
@@ -190,8 +195,6 @@ TEST(DeviceFile_Mistakes_NameTheLineAndTheRemedy) {
                 "test.device:18: `breakaway_1` needs to be at least `coulomb_1`");
   check_refusal(kFiveBar + "cogging_1 1 mN*m\n", "test.device:17: `cogging_1` needs `poles_1`");
   check_refusal(kFiveBar + "cable_0 10 N*m/rad\n", "test.device:17: `cable_0` on `rotor_0` would");
-  check_refusal(kFiveBar + "full_from 0.05\ngone_at 0.1\n",
-                "test.device:18: `gone_at` needs 0.001 <= gone_at < full_from");
 }
 
 TEST(Workspace_GoodRanges_AreFreeOfSingularities) {
