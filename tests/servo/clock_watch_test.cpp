@@ -33,7 +33,7 @@ void check_third_miss(uint32_t gap, uint32_t fault, Tick tick) {
   (void)clock.after(0);
   uint32_t missed = 0, faults = 0;
   for (uint32_t i = 0; i < 40 && faults == 0; ++i) {
-    missed += i % gap == 0 ? 1 : 0;
+    missed += i % gap == 0 ? 1u : 0u;
     faults = tick(clock, i % gap == 0);
   }
   CHECK_EQ(faults, fault);
