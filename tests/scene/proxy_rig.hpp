@@ -192,12 +192,12 @@ struct ProxyRig {
     uint32_t work = 0;
     while (move.aim()) {
       const Vec3 before_m = proxy.position_m;
-      const scene::Near near = shape.near(move.query_m(), move.budget(), move.needed_m());
-      work += near.work;
+      const scene::Near near = scene::nearest_of(shape, move);
       move.take(near);
       if (was_free) note_move(before_m, broken);
     }
     moved = move.finish();
+    work = moved.work;
     if (was_free) note_move(begin_m, broken);
     ++broken.ticks;
     broken.queries += moved.queries;

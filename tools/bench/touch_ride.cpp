@@ -93,7 +93,7 @@ struct Tool {
       note(was_free, from_m);
       if (!goes_on) break;
       const Vec3 before_m = proxy.position_m;
-      move.take(subject.near(move.query_m(), move.budget(), move.needed_m()));
+      move.take(scene::nearest_of(subject, move));
       note(was_free && is_free(), before_m);
     }
     moved = move.finish();

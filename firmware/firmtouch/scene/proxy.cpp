@@ -23,6 +23,7 @@ constexpr float kBand = 0.02f;
 
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
+constexpr float kLongestWay = 0.02f;  // that is searched at once
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
@@ -227,8 +228,14 @@ bool ProxyMove::aim() {
   const Vec3 to_m = proxy_.position_m + slide.point_m;
   const Vec3 missing_m = slide.point_m - (goal_m_ - proxy_.position_m);
   const bool is_to_goal = math::dot(missing_m, missing_m) <= 0.0f;
-  trial_m_ = size_m <= limit_m ? (is_to_goal ? goal_m_ : to_m)
-                               : proxy_.position_m + slide.point_m * (limit_m / size_m);
+  const Vec3 end_m = is_to_goal ? goal_m_ : to_m;
+  is_short_ = !(size_m <= limit_m);
+  trial_m_ = is_short_ ? proxy_.position_m + slide.point_m * (limit_m / size_m) : end_m;
+  const float most_m = kLongestWay * size_m_;
+  whole_m_ = size_m > most_m ? proxy_.position_m + slide.point_m * (most_m / size_m) : end_m;
+  // What searches of ways take must not be lacking for certificates.
+  is_short_ = is_short_ && limit_m < most_m && cap_ >= kCap && moved_.work <= work_left_ / 2 &&
+              !is_longer(whole_m_);
   is_over_ = true;
   if (size_m <= tolerance_m) {
     moved_.is_optimal = true;
@@ -250,6 +257,31 @@ bool ProxyMove::aim() {
   is_over_ = !(step_m < proxy_.free_m) || (!(step_m > 0.0f) && !moved_.is_optimal);
   if (is_over_) moved_.is_starved = true;
   return !is_over_;
+}
+
+Way ProxyMove::way() const {
+  Way way;
+  way.from_m = proxy_.position_m;
+  way.to_m = whole_m_;
+  way.radius_m = needed_m() + 0x1p-22f * math::length(way.from_m);  // where it ends is rounded
+  for (uint32_t n = 0; n < 3 && n < proxy_.active.count; ++n) {
+    const uint32_t i = proxy_.active.plane[n];
+    if (i >= proxy_.feature_count) continue;
+    const Vec3 normal = proxy_.plane[i].normal;
+    // Whatever the bits of a working set are.
+    if (math::dot(normal, normal) <= 1.0f + 0x1p-21f) way.axis[way.axes++] = normal;
+  }
+  return way;
+}
+
+void ProxyMove::take_way(float free_part, uint32_t work) {
+  moved_.work += work;
+  work_left_ -= work < work_left_ ? work : work_left_;
+  const Vec3 way_m = whole_m_ - proxy_.position_m;
+  if (free_part >= 1.0f)
+    trial_m_ = whole_m_;
+  else if (free_part * math::length(way_m) > cap_ * proxy_.free_m)
+    trial_m_ = proxy_.position_m + way_m * free_part;
 }
 
 // Result: false if it was known, and its plane, too.

@@ -12,6 +12,7 @@ namespace firmtouch::scene {
 
 constexpr uint32_t kMaxFeatures = 7;  // of the working set: a (tool, object) pair fits 512 B
 constexpr uint32_t kMaxQueries = 4;   // a tick
+constexpr uint32_t kWayShare = 8;  // part of the work that is left, to find whether a way is free
 // Relative to the size of the shape.
 constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
 constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
@@ -77,7 +78,7 @@ struct ProxyMoved {
 /// One tick, driven by the caller, who makes the queries:
 ///
 ///     ProxyMove move(settings, size_m, goal_m, proxy);
-///     while (move.aim()) move.take(shape.near(move.query_m(), move.budget(), move.needed_m()));
+///     while (move.aim()) move.take(nearest_of(shape, move));
 ///     const ProxyMoved moved = move.finish();
 ///
 /// which move_proxy() does. Bounds: at most kMaxQueries queries, which share the budget, and beside
@@ -92,6 +93,12 @@ class ProxyMove {
   math::Vec3 query_m() const { return trial_m_; }
   query::Budget budget() const;
   float needed_m() const;
+  /// Whether the query is short of where the proxy would go, for its free ball ends: then it is
+  /// made where the free part of way() ends.
+  bool is_short() const { return is_short_; }
+  Way way() const;
+  query::Budget way_budget() const { return {work_left_ / kWayShare}; }
+  void take_way(float free_part, uint32_t work);
   void take(const Near& near);
   ProxyMoved finish();
 
@@ -114,12 +121,13 @@ class ProxyMove {
   const ProxySettings& settings_;
   Proxy& proxy_;
   math::Vec3 goal_m_, trial_m_, begin_m_;
+  math::Vec3 whole_m_;  // where the proxy would go
   float size_m_;
   math::Friction friction_;
   float free_way_m_ = 0;      // to the hand, of a proxy without load: the band reaches as far
   float aimed_radius_m_ = 0;  // the radius that is grown to in this tick
   float cap_;                 // part of the free radius that a move may take
-  bool is_over_ = false;
+  bool is_over_ = false, is_short_ = false;
   uint8_t again_left_ = 5;     // solutions of a tick because planes were taken elsewhere
   bool is_searching_ = false;  // for the side of the hand, from where another tick has come
   uint32_t work_left_;
@@ -128,6 +136,24 @@ class ProxyMove {
   float lag_m_ = 0;     // from there to the solution
   ProxyMoved moved_;
 };
+
+template <class Shape>
+auto take_way_of(const Shape& shape, ProxyMove& move, int)
+    -> decltype(shape.free_part(move.way(), move.way_budget(), *static_cast<uint32_t*>(nullptr)),
+                void()) {
+  uint32_t work = 0;
+  const float free_part = shape.free_part(move.way(), move.way_budget(), work);
+  move.take_way(free_part, work);
+}
+template <class Shape>
+void take_way_of(const Shape&, ProxyMove&, long) {}
+
+/// The query that a move needs next.
+template <class Shape>
+Near nearest_of(Shape& shape, ProxyMove& move) {
+  if (move.is_short()) take_way_of(shape, move, 0);
+  return shape.near(move.query_m(), move.budget(), move.needed_m());
+}
 
 /// Moves the proxy towards the hand at `goal_m` (device frame).
 /// Result, from the first tick with Phase::kFree on, for every shape whose bounds are true, every
@@ -140,7 +166,7 @@ template <class Shape>
 ProxyMoved move_proxy(const ProxySettings& settings, math::Vec3 goal_m, Shape& shape,
                       Proxy& proxy) {
   ProxyMove move(settings, shape.size_m(), goal_m, proxy);
-  while (move.aim()) move.take(shape.near(move.query_m(), move.budget(), move.needed_m()));
+  while (move.aim()) move.take(nearest_of(shape, move));
   return move.finish();
 }
 

@@ -10,6 +10,10 @@
 //     scene::Near near(math::Vec3 x_m, query::Budget budget, float needed_m);  // device frame
 //     float size_m() const;                         // diagonal of its bounding box
 //
+// and, so that small tools follow a fast hand, may have
+//
+//     float free_part(const scene::Way& way, query::Budget budget, uint32_t& work) const;
+//
 // It may keep a hint between queries. If the budget ends before the bound reaches `needed_m`, it
 // may use a coarser bound that is cheaper. scene/analytic.hpp has five shapes,
 // scene/mesh_touched.hpp and scene/spline_touched.hpp those of an asset.
@@ -46,6 +50,15 @@ struct Near : Nearness {
   uint32_t steps = 0;  // visits
   uint32_t work = 0;   // units used
   Feature feature;     // kNone beyond the band
+};
+
+/// A straight move of the tool's sphere, device frame. Its free part, 0 to 1, is one on which no
+/// point of the shape is nearer than the radius.
+struct Way {
+  math::Vec3 from_m, to_m;
+  float radius_m = 0;
+  math::Vec3 axis[3];  // unit normals of the planes that it slides along
+  uint32_t axes = 0;
 };
 
 /// A plane with a feature behind it.
