@@ -189,20 +189,20 @@ struct ProxyRig {
     const Vec3 begin_m = proxy.position_m;
     const scene::MeshTouched shape{object, hint};
     scene::ProxyMove move(settings, shape.size_m(), hand_m, proxy);
-    uint32_t work = 0;
-    while (move.aim()) {
-      const Vec3 before_m = proxy.position_m;
-      const scene::Near near = scene::nearest_of(shape, move);
-      move.take(near);
+    // Each move is straight, all of a tick together need not be.
+    Vec3 before_m = begin_m;
+    const auto note = [&] {
       if (was_free) note_move(before_m, broken);
-    }
+      before_m = proxy.position_m;
+    };
+    for (; move.aim(); note()) move.take(scene::nearest_of(shape, move));
+    note();
     moved = move.finish();
-    work = moved.work;
-    if (was_free) note_move(begin_m, broken);
     ++broken.ticks;
     broken.queries += moved.queries;
     broken.optimal += moved.is_optimal ? 1 : 0;
-    if (moved.queries > scene::kMaxQueries || work > settings.budget.work) ++broken.over_budget;
+    if (moved.queries > scene::kMaxQueries || moved.work > settings.budget.work)
+      ++broken.over_budget;
     if (proxy.phase != scene::Proxy::Phase::kFree) return;
     if (was_free) {
       const double longer_m = distance(proxy.position_m, hand_m) - distance(begin_m, hand_m);

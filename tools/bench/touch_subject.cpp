@@ -54,7 +54,7 @@ class TouchedMesh final : public TouchSubject {
   scene::Near near(Vec3 x_m, query::Budget budget, float needed_m) override {
     return scene::HulledMeshTouched{object_, hint_}.near(x_m, budget, needed_m);
   }
-  float free_part(const scene::Way& way, query::Budget budget, uint32_t& work) const override {
+  float free_part(scene::Way way, query::Budget budget, uint32_t& work) const override {
     return scene::free_part_of(object_, way, budget, work);
   }
   bool is_crossed(Vec3 a_m, Vec3 b_m) const override { return meets(*model_, a_m, b_m); }

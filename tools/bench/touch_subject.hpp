@@ -24,7 +24,7 @@ class TouchSubject {
   /// Another tool: it has no hint.
   virtual void begin() = 0;
   virtual scene::Near near(math::Vec3 x_m, query::Budget budget, float needed_m) = 0;
-  virtual float free_part(const scene::Way&, query::Budget, uint32_t&) const { return 0; }
+  virtual float free_part(scene::Way, query::Budget, uint32_t&) const { return 0; }
   /// Whether the surface is between two places, by another way than near().
   virtual bool is_crossed(math::Vec3 a_m, math::Vec3 b_m) const = 0;
   /// Without sign, in double, by another way than near().

@@ -9,10 +9,9 @@ namespace firmtouch::mesh {
 
 /// A sphere on its way, mesh frame.
 struct SweptSphere {
-  math::Vec3 from_m, to_m;
+  math::Vec3 from_m, along_m;
   float radius_m = 0;
-  // At most unit vectors, away from triangles that are near: normals of the planes that it slides
-  // along.
+  // At most unit vectors, towards triangles that are near: across the planes that it slides along.
   math::Vec3 axis[3];
   uint32_t axes = 0;
 };
@@ -20,7 +19,7 @@ struct SweptSphere {
 struct Sweep {
   float free_part = 0;  // of the way, 0 to 1: up to there no point of the surface is nearer to it
                         // than the radius
-  uint32_t work = 0;    // units used, at most those allowed, 1 at least
+  uint32_t work = 0;    // units used, at most those allowed
 };
 
 /// How far the sphere certainly passes freely. The boxes that its way meets are searched. A
@@ -28,7 +27,7 @@ struct Sweep {
 /// or the direction in which the triangle is nearest at first.
 /// Errors: the free part is never too long, rounding of the import included; it may be too short,
 ///         and is 0 where the budget ends.
-/// Bounds: <= budget; 0.5 KB of stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget and 400 instructions; 0.5 KB of stack; re-entrant; callable from an interrupt.
 /// Source: separating axes: Gottschalk, Lin and Manocha 1996; conservative advancement: Mirtich
 ///         1996.
 Sweep sweep(const View& mesh, const SweptSphere& sphere, query::Budget budget);

@@ -5,7 +5,6 @@
 #include "firmtouch/field/closest_point.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/swept_sphere.hpp"
 #include "firmtouch/scene/pose_loss.hpp"
 
 namespace firmtouch::scene {
@@ -50,15 +49,13 @@ void use_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, flo
 
 }  // namespace
 
-float free_part_of(const MeshObject& object, const Way& way, query::Budget budget, uint32_t& work) {
-  mesh::SweptSphere sphere;
-  sphere.from_m = math::apply_inverse(object.pose, way.from_m);
-  sphere.to_m = math::apply_inverse(object.pose, way.to_m);
-  sphere.radius_m = way.radius_m + math::larger(pose_loss_m(object.pose, way.from_m),
-                                                pose_loss_m(object.pose, way.to_m));
-  for (; sphere.axes < way.axes; ++sphere.axes)
-    sphere.axis[sphere.axes] = math::transposed_times(object.pose.rotation, way.axis[sphere.axes]);
-  const mesh::Sweep swept = mesh::sweep(*object.mesh, sphere, budget);
+float free_part_of(const MeshObject& object, Way& way, query::Budget budget, uint32_t& work) {
+  way.radius_m += pose_loss_m(object.pose, way.from_m);
+  way.from_m = math::apply_inverse(object.pose, way.from_m);
+  way.along_m = math::transposed_times(object.pose.rotation, way.along_m);
+  for (uint32_t k = 0; k < way.axes; ++k)
+    way.axis[k] = math::transposed_times(object.pose.rotation, way.axis[k]);
+  const mesh::Sweep swept = mesh::sweep(*object.mesh, way, budget);
   work += swept.work;
   return swept.free_part;
 }

@@ -10,8 +10,8 @@ struct MaterialMeshObject : MeshObject {
   const StoredMaterials* materials = nullptr;  // proven against the mesh, or not open
 };
 
-/// Result: see Way. `work`: units used are added.
-float free_part_of(const MeshObject& object, const Way& way, query::Budget budget, uint32_t& work);
+/// Result: see Way, which comes into the mesh frame. `work`: units used are added.
+float free_part_of(const MeshObject& object, Way& way, query::Budget budget, uint32_t& work);
 
 /// A mesh as a shape that a proxy touches. The distance field and the base hull of the object are
 /// read only where the arguments say so, its materials if it is a MaterialMeshObject. Where the
@@ -24,7 +24,7 @@ struct MeshTouchedWith {
 
   float size_m() const;
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
-  float free_part(const Way& way, query::Budget budget, uint32_t& work) const {
+  float free_part(Way way, query::Budget budget, uint32_t& work) const {
     return free_part_of(object, way, budget, work);
   }
 };

@@ -23,7 +23,8 @@ constexpr float kBand = 0.02f;
 
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
-constexpr float kLongestWay = 0.02f;  // that is searched at once
+constexpr float kLongestWay = 0.02f;   // that is searched at once
+constexpr uint32_t kLeastForWay = 64;  // units, to search a way
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
@@ -228,14 +229,16 @@ bool ProxyMove::aim() {
   const Vec3 to_m = proxy_.position_m + slide.point_m;
   const Vec3 missing_m = slide.point_m - (goal_m_ - proxy_.position_m);
   const bool is_to_goal = math::dot(missing_m, missing_m) <= 0.0f;
-  const Vec3 end_m = is_to_goal ? goal_m_ : to_m;
+  trial_m_ = is_to_goal ? goal_m_ : to_m;
+  along_m_ = slide.point_m;
   is_short_ = !(size_m <= limit_m);
-  trial_m_ = is_short_ ? proxy_.position_m + slide.point_m * (limit_m / size_m) : end_m;
-  const float most_m = kLongestWay * size_m_;
-  whole_m_ = size_m > most_m ? proxy_.position_m + slide.point_m * (most_m / size_m) : end_m;
-  // What searches of ways take must not be lacking for certificates.
-  is_short_ = is_short_ && limit_m < most_m && cap_ >= kCap && moved_.work <= work_left_ / 2 &&
-              !is_longer(whole_m_);
+  if (is_short_) {
+    trial_m_ = proxy_.position_m + slide.point_m * (limit_m / size_m);
+    const float part = kLongestWay * size_m_ / size_m;
+    if (part < 1.0f) along_m_ = along_m_ * part;
+    // What searches of ways take must not be lacking for certificates.
+    is_short_ = cap_ >= kCap && moved_.work <= work_left_ / 2 && work_left_ >= kLeastForWay;
+  }
   is_over_ = true;
   if (size_m <= tolerance_m) {
     moved_.is_optimal = true;
@@ -262,14 +265,15 @@ bool ProxyMove::aim() {
 Way ProxyMove::way() const {
   Way way;
   way.from_m = proxy_.position_m;
-  way.to_m = whole_m_;
-  way.radius_m = needed_m() + 0x1p-22f * math::length(way.from_m);  // where it ends is rounded
+  way.along_m = along_m_;
+  // What is rounded of both, and of a place on the way.
+  way.radius_m = needed_m() + 0x1p-21f * (math::length(way.from_m) + math::length(along_m_));
   for (uint32_t n = 0; n < 3 && n < proxy_.active.count; ++n) {
     const uint32_t i = proxy_.active.plane[n];
     if (i >= proxy_.feature_count) continue;
     const Vec3 normal = proxy_.plane[i].normal;
     // Whatever the bits of a working set are.
-    if (math::dot(normal, normal) <= 1.0f + 0x1p-21f) way.axis[way.axes++] = normal;
+    if (math::dot(normal, normal) <= 1.0f + 0x1p-21f) way.axis[way.axes++] = -normal;
   }
   return way;
 }
@@ -277,11 +281,9 @@ Way ProxyMove::way() const {
 void ProxyMove::take_way(float free_part, uint32_t work) {
   moved_.work += work;
   work_left_ -= work < work_left_ ? work : work_left_;
-  const Vec3 way_m = whole_m_ - proxy_.position_m;
-  if (free_part >= 1.0f)
-    trial_m_ = whole_m_;
-  else if (free_part * math::length(way_m) > cap_ * proxy_.free_m)
-    trial_m_ = proxy_.position_m + way_m * free_part;
+  const Vec3 end_m = proxy_.position_m + along_m_ * free_part;
+  if (free_part * math::length(along_m_) > cap_ * proxy_.free_m && !is_longer(end_m))
+    trial_m_ = end_m;
 }
 
 // Result: false if it was known, and its plane, too.

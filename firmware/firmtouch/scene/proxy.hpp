@@ -121,7 +121,7 @@ class ProxyMove {
   const ProxySettings& settings_;
   Proxy& proxy_;
   math::Vec3 goal_m_, trial_m_, begin_m_;
-  math::Vec3 whole_m_;  // where the proxy would go
+  math::Vec3 along_m_;  // the way that it would go
   float size_m_;
   math::Friction friction_;
   float free_way_m_ = 0;      // to the hand, of a proxy without load: the band reaches as far

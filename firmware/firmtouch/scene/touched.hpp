@@ -2,6 +2,7 @@
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
+#include "firmtouch/mesh/swept_sphere.hpp"
 #include "firmtouch/query/certificate.hpp"
 
 // What a proxy queries of a shape: a near feature, and a certified bound of the distance. A shape
@@ -12,7 +13,7 @@
 //
 // and, so that small tools follow a fast hand, may have
 //
-//     float free_part(const scene::Way& way, query::Budget budget, uint32_t& work) const;
+//     float free_part(scene::Way way, query::Budget budget, uint32_t& work) const;
 //
 // It may keep a hint between queries. If the budget ends before the bound reaches `needed_m`, it
 // may use a coarser bound that is cheaper. scene/analytic.hpp has five shapes,
@@ -54,12 +55,7 @@ struct Near : Nearness {
 
 /// A straight move of the tool's sphere, device frame. Its free part, 0 to 1, is one on which no
 /// point of the shape is nearer than the radius.
-struct Way {
-  math::Vec3 from_m, to_m;
-  float radius_m = 0;
-  math::Vec3 axis[3];  // unit normals of the planes that it slides along
-  uint32_t axes = 0;
-};
+using Way = mesh::SweptSphere;
 
 /// A plane with a feature behind it.
 struct Tangent {
