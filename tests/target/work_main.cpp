@@ -1,7 +1,7 @@
-// Attacks the bound of a query's time: `work ROUNDS SEED FIXED PER_UNIT [guide|field|hull]` on the
-// emulator's command line. A query of the board's asset (mesh, curve or spline; guide: a tick of
-// the guide along it; field, hull: those of the mesh) must take at most FIXED + units used *
-// PER_UNIT instructions, at every budget: anywhere, after jumps, from afar, led along, along the
+// Attacks the bound of a query's time: `work ROUNDS SEED FIXED PER_UNIT [guide|field|hull|way]` on
+// the emulator's command line. A query of the board's asset (mesh, curve or spline; guide: a tick
+// of the guide along it; field, hull, way: those of the mesh) must take at most FIXED + units used
+// * PER_UNIT instructions, at every budget: anywhere, after jumps, from afar, led along, along the
 // axes of a point of the shape, and hill climbing from the worst so far. Rows:
 //     UNITS INSTRUCTIONS                 the worst seen of queries that used so many units, or more
 //                                        and fewer than the next row's
@@ -22,6 +22,7 @@
 #include "firmtouch/hull/loader.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
+#include "firmtouch/mesh/swept_sphere.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/guide/guided_point.hpp"
 #include "target/count.hpp"
@@ -43,7 +44,7 @@ constexpr float kArcPenalty = 0.1f, kRelease = 0.1f;  // of a guide, as shares o
 
 struct Settings {
   uint32_t rounds, seed, fixed, per_unit;
-  char part;  // 'g': a guide, 'f': a field, 'h': a hull; else the shape itself
+  char part;  // 'g': a guide, 'f': a field, 'h': a hull, 'w': a way; else the shape itself
 };
 
 // A shape that is queried, and what the last query left.
@@ -91,6 +92,28 @@ struct Hull {
     const hull::BaseHullDistance distance = hull::base_hull_distance(base_hull, p_m, budget);
     Answer answer{distance.point_m, {}};
     answer.certificate.work = distance.work;
+    return answer;
+  }
+};
+// A sphere on its way from the last query's place.
+struct Way {
+  struct State {
+    Vec3 from_m;
+  };
+  const mesh::View& mesh;
+  float extent_m;
+  Answer query(Vec3 p_m, query::Budget budget, State& state) const {
+    static const float kRadii[] = {4e-6f, 1e-3f, 1e-2f, 0.1f};
+    const uint32_t bits = math::bits_of(p_m.x) ^ math::bits_of(p_m.y);
+    mesh::SweptSphere sphere;
+    sphere.from_m = state.from_m;
+    sphere.along_m = p_m - state.from_m;
+    sphere.radius_m = kRadii[bits % 4] * extent_m;
+    sphere.axis[0] = {1, 0, 0}, sphere.axis[1] = {0, 1, 0}, sphere.axis[2] = {0, 0, 1};
+    sphere.axes = 3;
+    Answer answer{mesh.vertex(bits % mesh.head().vertex_count), {}};
+    answer.certificate.work = mesh::sweep(mesh, sphere, budget).work;
+    state.from_m = p_m;
     return answer;
   }
 };
@@ -270,6 +293,8 @@ bool run_mesh(const mesh::View& mesh, const Settings& settings) {
     hull::View view;
     if (!Asset().open(view)) return false;
     attack(Hull{view.base_hull()}, box, settings);
+  } else if (settings.part == 'w') {
+    attack(Way{mesh, box.extent_m}, box, settings);
   } else {
     attack(Shape<mesh::View, mesh::Hint>{mesh}, box, settings);
   }

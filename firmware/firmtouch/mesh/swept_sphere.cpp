@@ -11,10 +11,10 @@ namespace {
 
 using math::Vec3;
 
-// Work is counted in quarters of a unit: a node takes one, a triangle eight.
+// Work is counted in quarters of a unit: a node takes one, a triangle nine.
 constexpr uint32_t kPartsOfUnit = 4;
 constexpr uint32_t kBeginParts = 16;
-constexpr uint32_t kTriangleParts = 8;
+constexpr uint32_t kTriangleParts = 9;
 
 // Of NaN nothing is free.
 float smaller(float a, float b) { return a < b ? a : b; }

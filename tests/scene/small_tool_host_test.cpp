@@ -1,0 +1,127 @@
+// Tools that are small beside what a hand moves in a tick: a point, and less than a millimetre.
+#include <cmath>
+
+#include "firmtouch/math/vec3_ops.hpp"
+#include "scene/proxy_rig.hpp"
+
+using namespace firmtouch;  // NOLINT: a test file
+using namespace scene_test;
+
+namespace {
+
+double wide(float a) { return static_cast<double>(a); }
+
+// A block of 0.1 x 0.1 m, of 2 n^2 triangles on its top, whose height is `z_m(x, y)`.
+template <class Height>
+tools::Surface hilly(int n, const Height& z_m) {
+  tools::Surface surface;
+  const auto add = [&](double x, double y, double z) {
+    surface.vertices.push_back(
+        {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+    return static_cast<uint32_t>(surface.vertices.size() - 1);
+  };
+  const auto at = [n](int i, int j) { return static_cast<uint32_t>(j * (n + 1) + i); };
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      const double x = 0.1 * i / n - 0.05, y = 0.1 * j / n - 0.05;
+      add(x, y, z_m(x, y));
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      surface.faces.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      surface.faces.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  std::vector<uint32_t> rim, low;
+  for (int i = 0; i < n; ++i) rim.push_back(at(i, 0));
+  for (int j = 0; j < n; ++j) rim.push_back(at(n, j));
+  for (int i = n; i > 0; --i) rim.push_back(at(i, n));
+  for (int j = n; j > 0; --j) rim.push_back(at(0, j));
+  for (const uint32_t v : rim)
+    low.push_back(add(wide(surface.vertices[v].x), wide(surface.vertices[v].y), -0.03));
+  const uint32_t middle = add(0, 0, -0.03);
+  for (size_t k = 0; k < rim.size(); ++k) {
+    const size_t next = (k + 1) % rim.size();
+    surface.faces.push_back({rim[k], low[k], low[next]});
+    surface.faces.push_back({rim[k], low[next], rim[next]});
+    surface.faces.push_back({middle, low[next], low[k]});
+  }
+  return surface;
+}
+
+double flat(double, double) { return 0; }
+double hills(double x, double y) { return 0.004 * std::sin(80 * x) * std::cos(60 * y); }
+
+// Comes down in 100 ticks, then goes around at `step_m` a tick, 2 mm deeper than `top_m`.
+Vec3 round_hand(uint32_t tick, double step_m, double top_m) {
+  const double turn = tick < 100 ? 0 : (tick - 100) * step_m / 0.03;
+  const double z = tick < 100 ? top_m + 0.008 - 0.0001 * tick : top_m - 0.002;
+  return {static_cast<float>(0.03 * std::cos(turn)), static_cast<float>(0.03 * std::sin(turn)),
+          static_cast<float>(z)};
+}
+
+}  // namespace
+
+TEST(SmallTool_OnAFace_IsAboveTheHandAtAnySpeed) {
+  for (const float radius_m : {0.0f, 0.00002f, 0.0005f})
+    for (const double step_m : {1e-5, 1e-4, 1e-3}) {
+      ProxyRig rig(hilly(50, flat));
+      rig.settings.radius_m = radius_m;
+      Broken broken;
+      uint32_t behind = 0;
+      for (uint32_t tick = 0; tick < 1000; ++tick) {
+        const Vec3 hand_m = round_hand(tick, step_m, 0);
+        rig.tick(hand_m, broken);
+        const Vec3 off_m = rig.proxy.position_m - hand_m;
+        const double off = std::hypot(wide(off_m.x), wide(off_m.y));
+        if (off > 3e-6 * wide(rig.view.head().diagonal_m)) ++behind;
+        CHECK_LE(off, step_m);
+      }
+      firmtouch::test::note("step", static_cast<uint32_t>(step_m * 1e6));
+      CHECK_LE(behind, 1u);  // on a joint of triangles, whose planes differ by rounding
+      CHECK_EQ(broken.crossings, 0u);
+    }
+}
+
+TEST(SmallTool_OverHills_FollowsTheHand) {
+  for (const float radius_m : {0.0f, 0.0001f})
+    for (const double step_m : {1e-4, 5e-4}) {
+      ProxyRig rig(hilly(80, hills));
+      rig.settings.radius_m = radius_m;
+      Broken broken;
+      uint32_t uncertain = 0;
+      for (uint32_t tick = 0; tick < 2000; ++tick) {
+        rig.tick(round_hand(tick, step_m, 0.004), broken);
+        uncertain += rig.moved.is_starved ? 1 : 0;
+      }
+      CHECK_EQ(broken.crossings + broken.unclear + broken.over_budget + uncertain, 0u);
+      CHECK_LE(0.98 * broken.ticks, 1.0 * broken.optimal);
+      CHECK_LE(1.0 * broken.queries, 1.3 * broken.ticks);
+    }
+}
+
+// At 4 radii a tick: all of a move is as clear as its ends, so no ridge is passed over.
+TEST(SmallTool_RidgeLowerThanItsRadius_IsNotPassedOver) {
+  const auto ridge = [](double x, double) { return std::fabs(x - 0.01) < 0.0009 ? 0.0003 : 0.0; };
+  ProxyRig rig(hilly(60, ridge));
+  rig.settings.radius_m = 0.0005f;
+  const double lost_m = 3e-6 * wide(rig.view.head().diagonal_m);
+  const scene::MeshTouched shape{rig.object, rig.hint};
+  uint32_t long_moves = 0;
+  for (uint32_t tick = 0; tick < 400; ++tick) {
+    const Vec3 hand_m = round_hand(tick, 2e-3, 0);
+    scene::ProxyMove move(rig.settings, shape.size_m(), hand_m, rig.proxy);
+    const bool was_free = rig.proxy.phase == scene::Proxy::Phase::kFree;
+    while (move.aim()) {
+      const Vec3 from_m = rig.proxy.position_m;
+      move.take(scene::nearest_of(shape, move));
+      const Vec3 along_m = rig.proxy.position_m - from_m;
+      if (!was_free || math::length(along_m) < rig.proxy.radius_m) continue;
+      ++long_moves;
+      for (int k = 1; k < 8; ++k)
+        CHECK_LE(wide(rig.proxy.radius_m) - lost_m,
+                 rig.truth_m(from_m + along_m * (0.125f * static_cast<float>(k))));
+    }
+    move.finish();
+  }
+  CHECK_LT(100u, long_moves);
+}
