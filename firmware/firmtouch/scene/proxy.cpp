@@ -23,8 +23,8 @@ constexpr float kBand = 0.02f;
 
 // Part of the certified free radius that one move takes.
 constexpr float kCap = 0.9f;
-constexpr float kLongestWay = 0.02f;   // that is searched at once
-constexpr uint32_t kLeastForWay = 64;  // units, to search a way
+constexpr float kLongestWay = 0.02f;  // that is searched at once
+constexpr uint32_t kMinWayWork = 64;  // units, to search a way
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
@@ -226,18 +226,15 @@ bool ProxyMove::aim() {
       way_m * 3e-6f > kTolerance * size_m_ ? way_m * 3e-6f : kTolerance * size_m_;
   const float limit_m = cap_ * proxy_.free_m;
   // Bitwise at the hand, if nothing holds it back.
-  const Vec3 to_m = proxy_.position_m + slide.point_m;
   const Vec3 missing_m = slide.point_m - (goal_m_ - proxy_.position_m);
   const bool is_to_goal = math::dot(missing_m, missing_m) <= 0.0f;
-  trial_m_ = is_to_goal ? goal_m_ : to_m;
-  along_m_ = slide.point_m;
+  trial_m_ = is_to_goal ? goal_m_ : proxy_.position_m + slide.point_m;
   is_short_ = !(size_m <= limit_m);
   if (is_short_) {
     trial_m_ = proxy_.position_m + slide.point_m * (limit_m / size_m);
-    const float part = kLongestWay * size_m_ / size_m;
-    if (part < 1.0f) along_m_ = along_m_ * part;
+    along_m_ = slide.point_m * math::smaller(kLongestWay * size_m_ / size_m, 1.0f);
     // What searches of ways take must not be lacking for certificates.
-    is_short_ = cap_ >= kCap && moved_.work <= work_left_ / 2 && work_left_ >= kLeastForWay;
+    is_short_ = cap_ >= kCap && moved_.work <= work_left_ / 2 && work_left_ >= kMinWayWork;
   }
   is_over_ = true;
   if (size_m <= tolerance_m) {
@@ -260,30 +257,6 @@ bool ProxyMove::aim() {
   is_over_ = !(step_m < proxy_.free_m) || (!(step_m > 0.0f) && !moved_.is_optimal);
   if (is_over_) moved_.is_starved = true;
   return !is_over_;
-}
-
-Way ProxyMove::way() const {
-  Way way;
-  way.from_m = proxy_.position_m;
-  way.along_m = along_m_;
-  // What is rounded of both, and of a place on the way.
-  way.radius_m = needed_m() + 0x1p-21f * (math::length(way.from_m) + math::length(along_m_));
-  for (uint32_t n = 0; n < 3 && n < proxy_.active.count; ++n) {
-    const uint32_t i = proxy_.active.plane[n];
-    if (i >= proxy_.feature_count) continue;
-    const Vec3 normal = proxy_.plane[i].normal;
-    // Whatever the bits of a working set are.
-    if (math::dot(normal, normal) <= 1.0f + 0x1p-21f) way.axis[way.axes++] = -normal;
-  }
-  return way;
-}
-
-void ProxyMove::take_way(float free_part, uint32_t work) {
-  moved_.work += work;
-  work_left_ -= work < work_left_ ? work : work_left_;
-  const Vec3 end_m = proxy_.position_m + along_m_ * free_part;
-  if (free_part * math::length(along_m_) > cap_ * proxy_.free_m && !is_longer(end_m))
-    trial_m_ = end_m;
 }
 
 // Result: false if it was known, and its plane, too.
