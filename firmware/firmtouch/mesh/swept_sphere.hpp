@@ -27,7 +27,7 @@ struct Sweep {
 /// or the direction in which the triangle is nearest at first.
 /// Errors: the free part is never too long, rounding of the import included; it may be too short,
 ///         and is 0 where the budget ends.
-/// Bounds: <= budget and 400 instructions; 0.5 KB of stack; re-entrant; callable from an interrupt.
+/// Bounds: <= budget, or 4 units; 0.5 KB of stack; re-entrant; callable from an interrupt.
 /// Source: separating axes: Gottschalk, Lin and Manocha 1996; conservative advancement: Mirtich
 ///         1996.
 Sweep sweep(const View& mesh, const SweptSphere& sphere, query::Budget budget);
