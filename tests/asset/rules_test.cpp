@@ -31,6 +31,17 @@ void expect_third(uint32_t field, uint32_t value, uint32_t rule) {
   expect(file, rule, 2);
 }
 
+// The third section is an origin, (x_m, -2.5, 0).
+SmallFile with_origin(float x_m) {
+  SmallFile file;
+  file.word(kThird, firmtouch::asset::kOriginSection);
+  file.word(kThird + kBytes, 12);
+  const float xyzw[4] = {x_m, -2.5f, 0.0f, 0.0f};
+  __builtin_memcpy(file.bytes + kData + 48, xyzw, sizeof xyzw);
+  file.repair();
+  return file;
+}
+
 }  // namespace
 
 TEST(UnchangedFile_Passes) { expect(SmallFile(), 0); }
@@ -242,4 +253,37 @@ TEST(Rule26_RejectsNonzeroPadding) {
     expect(file, firmtouch::asset::kRuleSectionPadding, 0);
     file.bytes[at] = 0;
   }
+}
+
+TEST(Rule27_RejectsOriginOfAnotherSize) {
+  SmallFile file = with_origin(5.0f);
+  file.word(kThird + kBytes, 16);
+  file.repair();
+  expect(file, firmtouch::asset::kRuleOriginSize, 2);
+}
+
+TEST(Rule28_RejectsOriginThatIsNoPlace) {
+  static const float wrong_m[] = {1.0001e9f, -1.0001e9f, __builtin_inff(), __builtin_nanf("")};
+  for (const float x_m : wrong_m) expect(with_origin(x_m), firmtouch::asset::kRuleOriginValue, 2);
+  static const float sound_m[] = {1e9f, -1e9f};
+  for (const float x_m : sound_m) expect(with_origin(x_m), 0);
+}
+
+TEST(Rule29_RejectsSecondOrigin) {
+  SmallFile file = with_origin(5.0f);
+  file.word(32, firmtouch::asset::kOriginSection);
+  file.word(32 + kBytes, 12);
+  for (uint32_t i = 0; i < 12; ++i) file.bytes[kData + i] = 0;
+  file.repair();
+  expect(file, firmtouch::asset::kRuleSecondOrigin, 0);
+}
+
+TEST(Origin_IsRead_AndZeroWithoutOne) {
+  Container container;
+  CHECK(firmtouch::asset::open(with_origin(5.0f).all(), container).ok());
+  CHECK_EQ(static_cast<int>(container.origin_m().x), 5);
+  CHECK_EQ(static_cast<int>(container.origin_m().y * 2), -5);
+  const SmallFile plain;
+  CHECK(firmtouch::asset::open(plain.all(), container).ok());
+  CHECK(!(__builtin_fabsf(container.origin_m().x) > 0) && !(container.origin_m().y < 0));
 }

@@ -85,7 +85,10 @@ WhatAReaderPassesOverIsTold() {
   says 'read: passed over stored normals' 'of 4 facets 1 have one opposite'
   box | awk '/^v/ { $2 += 20000.1 } { print }' >far.obj
   bake far.obj -o a.fta
-  says 'read: rounded coordinates to 32 bits' 'move the model to the origin'
+  says 'far from 0: stored from the origin (20000, 0, 0 m)'
+  box >near.obj
+  bake far.obj near.obj -o a.fta
+  says 'read: rounded coordinates to 32 bits' 'bake it alone'
 }
 
 RealModelsAreBakedMendedOrRefused() {
@@ -172,4 +175,31 @@ AMillionTrianglesBakeIn25SecondsAnd300MiB() {
   (ulimit -v 307200; exec "$firmtouch" bake million.obj -o million.fta 2>.err) || fail "no bake in 300 MiB: $(cat .err)"
   seconds=$(($(date +%s) - before))
   [ $seconds -le 25 ] || fail "$seconds s"
+}
+
+# The box at (1000.1, -2000.2, 3000.3): its sides are at 1001.1 and 3003.3, the corner at all three.
+FarPartsAnswerInTheFilesCoordinates() {
+  box | awk '/^v/ { $2 += 1000.1; $3 -= 2000.2; $4 += 3000.3 } { print }' >far.obj
+  bake far.obj -o far.fta --hull-faces 8
+  f info far.fta
+  same "$(printf '%s\n' "$out" | sed -n 's/^  \([xyz]_m\)  */\1 /p' | paste -sd, -)" 'x_m 1000,y_m -2000,z_m 3000.5'
+  printf 'x,y,z\n1001.2,-2000.2,3000.3\n1000.1,-2000.2,3003.4\n' >rows.csv
+  f query far.fta far distance <rows.csv
+  same "$(printf '%s\n' "$out" | sed 1d | cut -d, -f3-5)" '1001.1,-2000.2,3000.3
+1000.1,-2000.2,3003.3'
+  same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f ", $1 }')" '0.100000 0.100000 '
+  for kind in segment hull; do
+    printf 'ax,ay,az,bx,by,bz\n1002.1,-2000.3,3000.4,998.1,-2000.3,3000.4\n' >rows.csv
+    f query far.fta far $kind --all <rows.csv
+    same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f ", $2 }')" '0.250000 0.750000 '
+  done
+  printf 'ax,ay,az,dx,dy,dz\n1002.1,-2000.3,3000.4,-2,0,0\n' >rows.csv
+  f query far.fta far hull --primitive ray <rows.csv
+  same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f ", $2 }')" '0.500000 '
+  bend | awk -F, 'NR > 1 { $0 = $1 + 1000.1 "," $2 - 2000.2 "," $3 + 3000.3 } { print }' >rail.csv
+  bake rail.csv -o rail.fta
+  printf 'x[mm],y[mm],z[mm]\n1002100,-2000150,3000300\n' >rows.csv
+  f query rail.fta rail curve <rows.csv
+  same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f %.6f %.6f %.6f", $1, $2, $3, $4 }')" \
+    '0.050000 1002.100000 -2000.200000 3000.300000'
 }

@@ -89,13 +89,13 @@ AQueryAnswersInJsonOrAsNpy() {
   out=$(sed -n 1p rows) && well_formed
   member '{"distance": 4, "sign": 1, "cx": 1, ' '"feature": "' '"exact": true}'
   same "$(wc -l <rows | tr -d ' ')" 2
-  # The names of the columns are the CSV's, and a record has their bits: 8 floats, 3 integers, a word of 8 letters, a flag.
+  # The names of the columns are the CSV's, and a record has their bits: 5 floats, 3 doubles, 3 integers, a word of 8 letters, a flag.
   "$firmtouch" query scene.fta box distance --npy <points.csv >rows.npy || fail 'no .npy'
   head=$(($(od -An -tu2 -j8 -N2 rows.npy) + 10))
   head -c $head rows.npy | tail -c +11 >head
   same "$(tr , '\n' <head | sed -n "s/.*('\([a-z]*\)'$/\1/p" | paste -sd, -)" "$(printf '%s\n' "$csv" | sed 1q)"
   grep -q "'shape': (2,), }" head || fail "$(cat head)"
-  same "$((head % 64)) $(wc -c <rows.npy | tr -d ' ')" "0 $((head + 2 * (8 * 4 + 3 * 8 + 32 + 1)))"
+  same "$((head % 64)) $(wc -c <rows.npy | tr -d ' ')" "0 $((head + 2 * (5 * 4 + 6 * 8 + 32 + 1)))"
   same "$(od -An -tf4 -j$head -N4 rows.npy | tr -d ' ')" 4
   f query scene.fta box distance --npy --time; exits 2; says 'leave out --time'
   f query scene.fta box distance --npy --line-buffered; exits 2; says 'leave out --line-buffered'

@@ -82,7 +82,7 @@ TEST(Victim_HasEverySectionType_AndRuns) {
   const asset::Container container = opened_victim();
   std::set<uint32_t> types;
   for (uint32_t i = 0; i < container.section_count(); ++i) types.insert(container.type(i));
-  for (uint32_t type = asset::kBoundsSection; type <= asset::kProvenanceSection; ++type)
+  for (uint32_t type = asset::kBoundsSection; type <= asset::kOriginSection; ++type)
     CHECK_EQ(types.count(type), 1u);
   for (uint32_t type = mesh::kHeadSection; type <= mesh::kShapesSection; ++type)
     CHECK_EQ(

@@ -111,6 +111,8 @@ std::vector<uint8_t> make_victim() {
   sections.push_back(tools::text_section(asset::kProvenanceSection, "pebble",
                                          tools::provenance("pebble.obj", {1, 2, 3}, "", "tests")));
   sections.push_back({0x80000001u, "pebble", {1, 2, 3, 4, 5}});
+  sections.push_back(
+      tools::make_section(asset::kOriginSection, "origin", std::vector<float>{40, -3, 0.5f}));
   tools::AssetFile file = tools::write_asset(sections);
   CHECK(file.problem.empty());
   return file.bytes;

@@ -15,6 +15,7 @@
 #include "firmtouch/scene/objects_layout.hpp"
 #include "firmtouch/scene/tool_layout.hpp"
 #include "json/json.hpp"
+#include "surface/point.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -30,6 +31,7 @@ struct SectionName {
 
 constexpr SectionName kSectionNames[] = {{asset::kBoundsSection, "bounds"},
                                          {asset::kProvenanceSection, "provenance"},
+                                         {asset::kOriginSection, "origin"},
                                          {mesh::kHeadSection, "mesh head"},
                                          {mesh::kVerticesSection, "mesh vertices"},
                                          {mesh::kTriangles16Section, "mesh triangles, 16 bit"},
@@ -91,6 +93,13 @@ void add(const std::string& name, double value, tools::Facts& facts) {
   facts.emplace_back(name, text);
 }
 
+void add_origin(math::Vec3 origin_m, tools::Facts& facts) {
+  const tools::Point at_m = tools::to_point(origin_m);
+  facts.emplace_back("x_m", tools::number_text(at_m.x));
+  facts.emplace_back("y_m", tools::number_text(at_m.y));
+  facts.emplace_back("z_m", tools::number_text(at_m.z));
+}
+
 constexpr uint32_t kRates_kHz[] = {1, 4, 10};
 
 std::string at_rate(uint32_t rate_kHz) { return "_at_" + std::to_string(rate_kHz) + "_kHz"; }
@@ -142,6 +151,7 @@ std::vector<NamedAsset> assets_of(const asset::Container& container) {
     last.sections.push_back(i);
     last.bytes += bytes.size();
     const uint32_t type = container.type(i);
+    if (type == asset::kOriginSection) add_origin(container.origin_m(), last.facts);
     if (type == device::kLinkageSection) add_stable_walls(bytes, last.facts);
     if (type != asset::kBoundsSection && type != asset::kProvenanceSection) continue;
     tools::Facts facts = tools::read_facts(bytes.data(), bytes.size());

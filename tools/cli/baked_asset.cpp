@@ -4,10 +4,12 @@
 
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/asset_writer.hpp"
+#include "bake/asset/origin.hpp"
 #include "bake/asset/provenance.hpp"
 #include "bake/objects/objects_file.hpp"
 #include "bake/objects/tool_file.hpp"
 #include "cli/asset_json.hpp"
+#include "cli/asset_origin.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
@@ -39,6 +41,7 @@ std::vector<std::string> names_of(const std::string& path, const BakeOptions& op
   const LoadedAsset asset(path);
   std::vector<std::string> names;
   for (uint32_t i = 0; i < asset.container().section_count(); ++i) {
+    if (asset.container().type(i) == asset::kOriginSection) continue;
     if (names.empty() || names.back() != asset.container().name(i))
       names.push_back(asset.container().name(i));
   }
@@ -84,6 +87,7 @@ BakedInput take_asset(const std::string& path) {
   const LoadedAsset asset(path);
   BakedInput taken;
   for (uint32_t i = 0; i < asset.container().section_count(); ++i) {
+    if (asset.container().type(i) == asset::kOriginSection) continue;  // settle_origin()
     const core::Bytes bytes = asset.container().section(i);
     taken.sections.push_back(tools::make_section(
         asset.container().type(i), asset.container().name(i), bytes.data(), bytes.size()));
@@ -123,7 +127,7 @@ BakedInput bake_text_input(const std::string& path, uint32_t type, const char* w
   return baked;
 }
 
-BakedInput bake_objects_input(const std::string& path, const std::vector<std::string>& inputs) {
+std::vector<std::string> meshes_of(const std::vector<std::string>& inputs) {
   std::vector<std::string> meshes;
   for (const std::string& input : inputs) {
     if (is_mesh_file(input)) meshes.push_back(stem_of(input));
@@ -132,9 +136,26 @@ BakedInput bake_objects_input(const std::string& path, const std::vector<std::st
     for (const std::string& name : tools::names_with(asset.container(), mesh::kHeadSection))
       meshes.push_back(name);
   }
+  return meshes;
+}
+
+BakedInput bake_objects_input(const std::string& path, const std::vector<std::string>& inputs) {
   return bake_text_input(path, scene::kObjectsSection, " objects, ", [&](const std::string& text) {
-    return tools::read_objects(path, text, meshes);
+    return tools::read_objects(path, text, meshes_of(inputs));
   });
+}
+
+// An object turns about the origin of its model, which must stay that of the file.
+bool has_turned_object(const std::vector<std::string>& inputs) {
+  for (const std::string& path : inputs) {
+    if (!is_objects_file(path)) continue;
+    const BakedInput baked = bake_objects_input(path, inputs);
+    for (const scene::ObjectLayout& object : core::as_whole_array<scene::ObjectLayout>(
+             {baked.sections[0].bytes.data(),
+              static_cast<uint32_t>(baked.sections[0].bytes.size())}))
+      if (tools::turns(object)) return true;
+  }
+  return false;
 }
 
 BakedInput bake_tool_input(const std::string& path) {
@@ -327,6 +348,9 @@ BakedAsset bake_asset(BakeRequest request, const std::string& output) {
     settle_size(input, request.options.model);
     break;
   }
+  const tools::Point origin_m =
+      asset_origin(request.inputs, has_turned_object(request.inputs), request.options.model);
+  request.options.model.origin_m = origin_m;
   std::vector<BakedInput> inputs = bake_all(request.inputs, request.options);
   if (!request.device.empty()) inputs.push_back(bake_device(request.device));
   BakedAsset baked;
@@ -334,6 +358,10 @@ BakedAsset bake_asset(BakeRequest request, const std::string& output) {
   const std::vector<std::string> files = request.files();
   for (size_t i = 0; i < inputs.size(); ++i) {
     sections.insert(sections.end(), inputs[i].sections.begin(), inputs[i].sections.end());
+    if (i == 0 && tools::is_moved(origin_m)) {
+      sections.push_back(tools::origin_section(origin_m));
+      inputs[i].report.push_back(origin_text(origin_m));
+    }
     baked.reports.push_back({name_of(files[i], request.options), std::move(inputs[i].report)});
   }
   tools::AssetFile file = tools::write_asset(sections);

@@ -52,6 +52,9 @@ BakedInput bake_curve_input(const std::string& path, const BakeOptions& options,
 /// A recorded run, thinned to a guide named options.teach.
 BakedInput bake_run_input(const std::string& path, const BakeOptions& options, Progress& progress);
 
+/// Of its places, in the scene's coordinates.
+Extent extent_of_run(const std::string& path);
+
 /// What curve and run have in common, from the points on; `source` is the file's bytes.
 BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
                        const std::string& name, const std::vector<uint8_t>& source,

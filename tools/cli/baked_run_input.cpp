@@ -53,20 +53,20 @@ bool is_place(const tools::Place& p) {
 }
 
 struct Run {
-  std::vector<tools::Place> places;  // in the frame of the asset that the run touched
+  std::vector<tools::Place> places;  // in the frame of the asset that the run touched, less origin
   size_t left_out = 0;               // ticks whose position is not to be trusted
 };
 
 // From the first tick with enable to the last: before, parameters may still be set, which bend what
 // a position means. A run that was never enabled counts whole.
-Run run_of(const std::vector<Tick>& ticks, const log::Header& header) {
+Run run_of(const std::vector<Tick>& ticks, const log::Header& header, tools::Point origin_m) {
   size_t begin = 0, end = ticks.size();
   while (begin < end && (ticks[begin].lines & kEnable) == 0) ++begin;
   while (end > begin && (ticks[end - 1].lines & kEnable) == 0) --end;
   if (begin == end) begin = 0, end = ticks.size();
-  const double x_m = number_of(header, "parameter.scene_x_m"),
-               y_m = number_of(header, "parameter.scene_y_m"),
-               z_m = number_of(header, "parameter.scene_z_m");
+  const double x_m = number_of(header, "parameter.scene_x_m") + origin_m.x,
+               y_m = number_of(header, "parameter.scene_y_m") + origin_m.y,
+               z_m = number_of(header, "parameter.scene_z_m") + origin_m.z;
   Run run;
   for (size_t i = begin; i < end; ++i) {
     const tools::Place& p = ticks[i].place;
@@ -122,13 +122,27 @@ std::string sentence(const char* format, size_t a, size_t b, double c, double d)
 
 }  // namespace
 
+Extent extent_of_run(const std::string& path) {
+  try {
+    const std::vector<uint8_t> source = read_file(path);
+    log::Reader reader(log::over_memory(source), path);
+    const std::vector<Tick> ticks = ticks_of(reader, path);
+    Extent extent;
+    for (const tools::Place& p : run_of(ticks, reader.header(), {}).places)
+      extent.add({p.x_m, p.y_m, p.z_m});
+    return extent;
+  } catch (const log::Refused& refused) {
+    fail_input(refused.what());
+  }
+}
+
 BakedInput bake_run_input(const std::string& path, const BakeOptions& options, Progress& progress) {
   progress.stage("reading and thinning " + file_name_of(path));
   const std::vector<uint8_t> source = read_file(path);
   try {
     log::Reader reader(log::over_memory(source), path);
     const std::vector<Tick> ticks = ticks_of(reader, path);
-    const Run run = run_of(ticks, reader.header());
+    const Run run = run_of(ticks, reader.header(), options.model.origin_m);
     tools::ThinnedRun thinned = thinned_for(run, options, path);
     if (!thinned.points.problem.empty()) fail_input(thinned.points.problem);
     std::vector<std::string>& notes = thinned.points.notes;

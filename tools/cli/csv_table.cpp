@@ -21,9 +21,8 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-bool parse(std::string_view text, float& value) {
+bool parse(std::string_view text, double& wide) {
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);
-  double wide = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), wide);
   if (result.ptr != text.data() + text.size() || text.empty()) return false;
   if (result.ec == std::errc::result_out_of_range) {  // too large or too small for a double
@@ -33,15 +32,15 @@ bool parse(std::string_view text, float& value) {
   } else if (result.ec != std::errc()) {
     return false;
   }
-  value = static_cast<float>(wide);
   return true;
 }
 
 struct Reader {
   const std::string& origin;
   const std::vector<std::string>& columns;
+  const std::vector<double>& shift;
   std::vector<size_t> places;  // of each column in a row
-  std::vector<float> unit_m;   // of each, where its name has a unit
+  std::vector<double> unit_m;  // of each, where its name has a unit
   size_t names_of_header = 0;
   CsvTable table;
 
@@ -67,7 +66,7 @@ struct Reader {
                          joined(columns));
       }
       places.push_back(found);
-      unit_m.push_back(units_m[found] > 0 ? static_cast<float>(units_m[found]) : 1.0f);
+      unit_m.push_back(units_m[found] > 0 ? units_m[found] : 1);
     }
   }
 
@@ -83,13 +82,15 @@ struct Reader {
                          columns[i] +
                          "' is missing; give every row a value for each column of the header");
       }
-      float value = 0;
+      double value = 0;
       if (!parse(fields[places[i]], value)) {
         fail(number, "column '" + columns[i] + "': '" +
                          std::string(fields[places[i]].substr(0, 40)) +
                          "' is not a number; write it with a point, as 0.125 or 1.25e-1");
       }
-      table.values.push_back(value * unit_m[i]);
+      table.values.push_back(shift.empty()
+                                 ? static_cast<float>(value) * static_cast<float>(unit_m[i])
+                                 : static_cast<float>(value * unit_m[i] - shift[i]));
     }
     table.line_of.push_back(number);
   }
@@ -97,8 +98,9 @@ struct Reader {
 
 // `skipped`: lines between the header and the rows, which `text` leaves out.
 CsvTable read_rows(const std::string& text, const std::string& origin,
-                   const std::vector<std::string>& columns, uint32_t skipped) {
-  Reader reader{origin, columns, {}, {}, 0, {}};
+                   const std::vector<std::string>& columns, const std::vector<double>& shift,
+                   uint32_t skipped) {
+  Reader reader{origin, columns, shift, {}, {}, 0, {}};
   reader.table.columns = columns.size();
   tools::CsvRows rows(text, false);
   if (!rows.problem().empty()) fail_input(origin + ": " + rows.problem());
@@ -132,6 +134,7 @@ std::string next_line(uint32_t number) {
 // The header and what stands above it, then a row a line.
 struct Lines {
   std::vector<std::string> columns;
+  std::vector<double> shift;
   std::string head;
   uint32_t head_lines = 0, lines = 0;
   bool has_header = false;
@@ -146,10 +149,10 @@ struct Lines {
         tools::CsvRows rows(head, false);
         std::vector<std::string_view> fields;
         has_header = !rows.problem().empty() || rows.next(fields);
-        if (has_header || line.empty()) (void)read_rows(head, kStandardInput, columns, 0);
+        if (has_header || line.empty()) (void)read_rows(head, kStandardInput, columns, shift, 0);
       } else if (!line.empty()) {
         const CsvTable one =
-            read_rows(head + line, kStandardInput, columns, lines - head_lines - 1);
+            read_rows(head + line, kStandardInput, columns, shift, lines - head_lines - 1);
         if (one.rows() == 0) continue;  // a comment or nothing
         table.values.insert(table.values.end(), one.values.begin(), one.values.end());
         table.line_of.push_back(lines);
@@ -163,14 +166,14 @@ struct Lines {
 }  // namespace
 
 CsvTable read_csv(const std::string& text, const std::string& origin,
-                  const std::vector<std::string>& columns) {
-  return read_rows(text, origin, columns, 0);
+                  const std::vector<std::string>& columns, const std::vector<double>& shift) {
+  return read_rows(text, origin, columns, shift, 0);
 }
 
-CsvTable read_csv_lines(const std::vector<std::string>& columns) {
+CsvTable read_csv_lines(const std::vector<std::string>& columns, const std::vector<double>& shift) {
   CsvTable table;
   table.columns = columns.size();
-  table.more = Lines{columns, "", 0, 0, false};
+  table.more = Lines{columns, shift, "", 0, 0, false};
   return table;
 }
 

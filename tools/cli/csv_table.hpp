@@ -23,10 +23,11 @@ struct CsvTable {
 /// any order, then one row a line. Takes CRLF, blanks about values, empty lines and a byte-order
 /// mark; other columns are ignored. `nan` and `inf` are values here. Fails (bad input) with the
 /// line and the remedy on anything else, a row of more values than the header has names included.
+/// `shift`: empty, or a value a column that is subtracted in double before the rounding.
 CsvTable read_csv(const std::string& text, const std::string& origin,
-                  const std::vector<std::string>& columns);
+                  const std::vector<std::string>& columns, const std::vector<double>& shift = {});
 
 /// The same of standard input, line by line: before it waits for one, what was printed is sent.
-CsvTable read_csv_lines(const std::vector<std::string>& columns);
+CsvTable read_csv_lines(const std::vector<std::string>& columns, const std::vector<double>& shift);
 
 }  // namespace firmtouch::cli

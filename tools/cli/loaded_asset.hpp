@@ -9,6 +9,7 @@
 #include "firmtouch/mesh/view.hpp"
 #include "firmtouch/spline/view.hpp"
 #include "simd/wide_mesh.hpp"
+#include "surface/point.hpp"
 
 namespace firmtouch::cli {
 
@@ -48,6 +49,7 @@ class LoadedAsset {
 
   const std::string& path() const { return path_; }
   const asset::Container& container() const { return container_; }
+  tools::Point origin_m() const { return tools::to_point(container_.origin_m()); }
   /// Fails (bad input) where there is none of this name: the message says which there are.
   LoadedMesh mesh(const std::string& name) const;
   LoadedHull hull(const std::string& name) const;

@@ -87,40 +87,10 @@ void turn_by(const Arguments& arguments, tools::FileFrame& frame) {
   tools::turn_about(frame, static_cast<int>(axis), degrees);
 }
 
-struct Extent {
-  tools::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(tools::Point p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 Extent extent_of(const tools::Surface& surface) {
   Extent extent;
   for (const tools::Face& face : surface.faces)
     for (const uint32_t v : face) extent.add(tools::to_point(surface.vertices[v]));
-  return extent;
-}
-
-// As the file's reader gives it; what is wrong with it is said when it is read again.
-Extent extent_of(const std::string& path, const ModelOptions& options) {
-  const tools::FileFrame frame = options.frame_for(path);
-  Extent extent;
-  if (is_curve_file(path)) {
-    for (const math::Vec3 p :
-         tools::read_curve_csv(path, frame, {options.has_decimal_commas}).samples_m)
-      extent.add(tools::to_point(p));
-  } else if (is_spline_file(path)) {
-    const tools::SplineModel model =
-        tools::read_spline_file(path, frame.has_unit ? frame.unit_m : 0);
-    const auto add = [&](const std::vector<tools::ControlPoint>& points) {
-      for (const tools::ControlPoint& p : points) extent.add(frame.placed({p.x, p.y, p.z}));
-    };
-    for (const tools::SplineCurve& curve : model.curves) add(curve.points);
-    for (const tools::SplineSurface& surface : model.surfaces) add(surface.points);
-  } else {
-    extent = extent_of(tools::read_surface(path, frame, tools::PointsAre::kTaken).surface);
-  }
   return extent;
 }
 
@@ -223,9 +193,36 @@ void add_materials(const std::string& path, const ModelOptions& options,
 
 }  // namespace
 
+void Extent::add(tools::Point p) {
+  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+}
+
+Extent extent_of(const std::string& path, const ModelOptions& options) {
+  const tools::FileFrame frame = options.frame_for(path);
+  Extent extent;
+  if (is_curve_file(path)) {
+    for (const math::Vec3 p :
+         tools::read_curve_csv(path, frame, {options.has_decimal_commas}).samples_m)
+      extent.add(tools::to_point(p));
+  } else if (is_spline_file(path)) {
+    const tools::SplineModel model =
+        tools::read_spline_file(path, frame.has_unit ? frame.unit_m : 0);
+    const auto add = [&](const std::vector<tools::ControlPoint>& points) {
+      for (const tools::ControlPoint& p : points) extent.add(frame.placed({p.x, p.y, p.z}));
+    };
+    for (const tools::SplineCurve& curve : model.curves) add(curve.points);
+    for (const tools::SplineSurface& surface : model.surfaces) add(surface.points);
+  } else {
+    extent = extent_of(tools::read_surface(path, frame, tools::PointsAre::kTaken).surface);
+  }
+  return extent;
+}
+
 tools::FileFrame ModelOptions::frame_for(const std::string& path) const {
   const auto own = frame_of.find(path);
   tools::FileFrame placed = frame;
+  placed.offset_m = placed.offset_m - origin_m;
   if (own == frame_of.end()) return placed;
   placed.unit_m = own->second.unit_m;
   placed.unit = own->second.unit;

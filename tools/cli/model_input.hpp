@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -19,8 +20,9 @@ struct Length {
 struct ModelOptions {
   tools::FileFrame frame;                            // without size and centre
   std::map<std::string, tools::FileFrame> frame_of;  // of the inputs with a unit of their own
-  double size_m = 0;    // of the first model's largest side; 0: as it is
-  bool centre = false;  // the middle of the first model's box to the origin
+  double size_m = 0;      // of the first model's largest side; 0: as it is
+  bool centre = false;    // the middle of the first model's box to the origin
+  tools::Point origin_m;  // of the asset, which stored coordinates count from
   bool is_signed = true;
   bool close_holes = false;
   bool mend = false;
@@ -43,6 +45,15 @@ std::vector<std::string> inputs_with_units(const std::vector<std::string>& words
 
 /// Settles --size and --centre by the box of `path`, which is read for that.
 void settle_size(const std::string& path, ModelOptions& options);
+
+/// Bounding box.
+struct Extent {
+  tools::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  void add(tools::Point p);
+};
+
+/// Of a model as its file's reader gives it; what is wrong with it is said when it is read again.
+Extent extent_of(const std::string& path, const ModelOptions& options);
 
 /// A model read, checked and mended.
 struct SoundSurface {

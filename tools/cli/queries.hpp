@@ -5,6 +5,7 @@
 #include "cli/csv_table.hpp"
 #include "cli/loaded_asset.hpp"
 #include "firmtouch/query/certificate.hpp"
+#include "surface/point.hpp"
 
 namespace firmtouch::cli {
 
@@ -24,15 +25,20 @@ void check_hull_options(const Arguments& arguments);
 /// Of a hull's query: segment, ray or triangle; fails (usage) on another.
 std::string primitive_of(const Arguments& arguments);
 
-// One a kind of query: answers every row of `table` on standard output, or times them.
 /// Applies --isa. Fails (usage) where this processor has no such level.
 void choose_isa(const Arguments& arguments);
 
-void query_distance(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments);
+// One a kind of query: answers every row of `table`, which counts from `origin_m`, on standard
+// output, or times them.
+void query_distance(const LoadedMesh& mesh, tools::Point origin_m, CsvTable table,
+                    const Arguments& arguments);
 void query_segment(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments);
 void query_hull(const LoadedHull& hull, CsvTable table, const Arguments& arguments);
-void query_curve(const LoadedCurve& curve, CsvTable table, const Arguments& arguments);
-void query_spline(const spline::View& model, CsvTable table, const Arguments& arguments);
-void query_footpoints(const spline::View& model, CsvTable table, const Arguments& arguments);
+void query_curve(const LoadedCurve& curve, tools::Point origin_m, CsvTable table,
+                 const Arguments& arguments);
+void query_spline(const spline::View& model, tools::Point origin_m, CsvTable table,
+                  const Arguments& arguments);
+void query_footpoints(const spline::View& model, tools::Point origin_m, CsvTable table,
+                      const Arguments& arguments);
 
 }  // namespace firmtouch::cli

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "bake/asset/origin.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
@@ -42,9 +43,24 @@ void check_options(const Arguments& arguments, const std::string& kind) {
   if (kind == "hull") check_hull_options(arguments);
 }
 
-CsvTable query_rows(const std::vector<std::string>& columns, const Arguments& arguments) {
-  if (arguments.has("--line-buffered")) return read_csv_lines(columns);
-  CsvTable table = read_csv(read_standard_input(), "standard input", columns);
+// The origin on each column's axis; of a direction 0.
+std::vector<double> shift_of(const std::vector<std::string>& columns,
+                             const tools::Point& origin_m) {
+  std::vector<double> shift;
+  if (!tools::is_moved(origin_m)) return shift;
+  for (const std::string& column : columns) {
+    const char axis = column.back();
+    const double x_m = axis == 'x' ? origin_m.x : axis == 'y' ? origin_m.y : origin_m.z;
+    shift.push_back(column[0] == 'd' ? 0 : x_m);
+  }
+  return shift;
+}
+
+CsvTable query_rows(const std::vector<std::string>& columns, const LoadedAsset& asset,
+                    const Arguments& arguments) {
+  const std::vector<double> shift = shift_of(columns, asset.origin_m());
+  if (arguments.has("--line-buffered")) return read_csv_lines(columns, shift);
+  CsvTable table = read_csv(read_standard_input(), "standard input", columns, shift);
   if (arguments.has("--time") && table.rows() == 0)
     fail_input("standard input: no rows after the header, so there is nothing to time; add some");
   return table;
@@ -127,27 +143,29 @@ int run_query(const Arguments& arguments) {
   const LoadedAsset asset(path);
   if (kind == "curve") {
     const LoadedCurve curve = asset.curve(name);
-    query_curve(curve, query_rows(kPoint, arguments), arguments);
+    query_curve(curve, asset.origin_m(), query_rows(kPoint, asset, arguments), arguments);
     return kDone;
   }
   if (kind == "hull") {
     const LoadedHull hull = asset.hull(name);
-    query_hull(hull, query_rows(columns_of(arguments), arguments), arguments);
+    query_hull(hull, query_rows(columns_of(arguments), asset, arguments), arguments);
     return kDone;
   }
   if (kind == "footpoints") {
-    query_footpoints(asset.spline(name), query_rows(kPoint, arguments), arguments);
+    query_footpoints(asset.spline(name), asset.origin_m(), query_rows(kPoint, asset, arguments),
+                     arguments);
     return kDone;
   }
   if (kind == "spline") {
-    query_spline(asset.spline(name), query_rows(kPoint, arguments), arguments);
+    query_spline(asset.spline(name), asset.origin_m(), query_rows(kPoint, asset, arguments),
+                 arguments);
     return kDone;
   }
   const LoadedMesh mesh = asset.mesh(name);
   if (kind == "distance") {
-    query_distance(mesh, query_rows(kPoint, arguments), arguments);
+    query_distance(mesh, asset.origin_m(), query_rows(kPoint, asset, arguments), arguments);
   } else {
-    query_segment(mesh, query_rows(kSegment, arguments), arguments);
+    query_segment(mesh, query_rows(kSegment, asset, arguments), arguments);
   }
   return kDone;
 }

@@ -1,5 +1,6 @@
 #include <vector>
 
+#include "bake/asset/origin.hpp"
 #include "bake/curve/curve_tree.hpp"
 #include "cli/failure.hpp"
 #include "cli/queries.hpp"
@@ -65,7 +66,8 @@ CurveOptions curve_options_of(const Arguments& arguments) {
   return options;
 }
 
-void query_curve(const LoadedCurve& given, CsvTable table, const Arguments& arguments) {
+void query_curve(const LoadedCurve& given, tools::Point origin_m, CsvTable table,
+                 const Arguments& arguments) {
   LoadedCurve curve = given;
   std::vector<uint32_t> tree;
   if (!curve_options_of(arguments).is_exact && curve.view.tree().empty()) {
@@ -76,9 +78,9 @@ void query_curve(const LoadedCurve& given, CsvTable table, const Arguments& argu
     if (!curve::open(curve.sections, curve.view).ok()) fail_input("the curve has no k-d tree");
   }
   const auto row_of = [&](const curve::Closest& a) {
-    return std::make_tuple(a.distance_m, a.point_m.x, a.point_m.y, a.point_m.z,
-                           curve.row_of(a.segment), a.arc, a.certificate.lower_m,
-                           a.certificate.steps, a.certificate.exact);
+    const tools::Point c_m = tools::in_file(tools::to_point(a.point_m), origin_m);
+    return std::make_tuple(a.distance_m, c_m.x, c_m.y, c_m.z, curve.row_of(a.segment), a.arc,
+                           a.certificate.lower_m, a.certificate.steps, a.certificate.exact);
   };
   answer_rows(
       table, arguments, {"distance", "cx", "cy", "cz", "segment", "arc", "lower", "steps", "exact"},

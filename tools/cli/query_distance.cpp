@@ -2,6 +2,7 @@
 #include <cfloat>
 #include <cstdio>
 
+#include "bake/asset/origin.hpp"
 #include "cli/failure.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
@@ -36,11 +37,12 @@ class Answers {
   mesh::Hint hint_;
 };
 
-auto row_of(const LoadedMesh& mesh, const mesh::Closest& a) {
-  return std::make_tuple(a.distance_m, static_cast<int>(a.certificate.sign), a.point_m.x,
-                         a.point_m.y, a.point_m.z, a.direction.x, a.direction.y, a.direction.z,
-                         mesh.source_of(a.triangle), feature_text(a.feature), a.certificate.lower_m,
-                         a.certificate.steps, a.certificate.exact);
+auto row_of(const LoadedMesh& mesh, tools::Point origin_m, const mesh::Closest& a) {
+  const tools::Point c_m = tools::in_file(tools::to_point(a.point_m), origin_m);
+  return std::make_tuple(a.distance_m, static_cast<int>(a.certificate.sign), c_m.x, c_m.y, c_m.z,
+                         a.direction.x, a.direction.y, a.direction.z, mesh.source_of(a.triangle),
+                         feature_text(a.feature), a.certificate.lower_m, a.certificate.steps,
+                         a.certificate.exact);
 }
 
 }  // namespace
@@ -62,13 +64,14 @@ query::Budget budget_of(const Arguments& arguments) {
   return budget;
 }
 
-void query_distance(const LoadedMesh& mesh, CsvTable table, const Arguments& arguments) {
+void query_distance(const LoadedMesh& mesh, tools::Point origin_m, CsvTable table,
+                    const Arguments& arguments) {
   answer_rows(
       table, arguments,
       {"distance", "sign", "cx", "cy", "cz", "nx", "ny", "nz", "triangle", "feature", "lower",
        "steps", "exact"},
       [&] { return Answers(mesh.wide, arguments); },
-      [&](const mesh::Closest& a) { return row_of(mesh, a); });
+      [&](const mesh::Closest& a) { return row_of(mesh, origin_m, a); });
 }
 
 }  // namespace firmtouch::cli

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "bake/asset/origin.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
 #include "footpoint/asset_pieces.hpp"
@@ -7,7 +8,8 @@
 
 namespace firmtouch::cli {
 
-void query_footpoints(const spline::View& model, CsvTable table, const Arguments& arguments) {
+void query_footpoints(const spline::View& model, tools::Point origin_m, CsvTable table,
+                      const Arguments& arguments) {
   std::vector<tools::BezierCurve> curves;
   std::vector<tools::BezierPatch> patches;
   tools::asset_pieces(model, curves, patches);
@@ -32,9 +34,11 @@ void query_footpoints(const spline::View& model, CsvTable table, const Arguments
   size_t incomplete = 0, first = 0;
   for (size_t i = 0; table.has(i); ++i) {
     bool is_complete = false;
-    for (const tools::Footpoint& f : feet.all(place(i), is_complete))
-      rows.add({i, tools::name_of(f.kind), f.distance_m, f.point_m.x, f.point_m.y, f.point_m.z,
-                f.piece, f.u, f.v});
+    for (const tools::Footpoint& f : feet.all(place(i), is_complete)) {
+      const tools::Point at_m = tools::in_file(f.point_m, origin_m);
+      rows.add(
+          {i, tools::name_of(f.kind), f.distance_m, at_m.x, at_m.y, at_m.z, f.piece, f.u, f.v});
+    }
     if (is_complete) continue;
     if (incomplete++ == 0) first = i;
   }

@@ -1,3 +1,4 @@
+#include "bake/asset/origin.hpp"
 #include "cli/queries.hpp"
 #include "cli/timing.hpp"
 #include "firmtouch/spline/closest_point.hpp"
@@ -25,9 +26,11 @@ class Answers {
 
 }  // namespace
 
-void query_spline(const spline::View& model, CsvTable table, const Arguments& arguments) {
-  const auto row_of = [](const spline::Closest& a) {
-    return std::make_tuple(a.distance_m, a.point_m.x, a.point_m.y, a.point_m.z, a.piece, a.u, a.v,
+void query_spline(const spline::View& model, tools::Point origin_m, CsvTable table,
+                  const Arguments& arguments) {
+  const auto row_of = [&](const spline::Closest& a) {
+    const tools::Point c_m = tools::in_file(tools::to_point(a.point_m), origin_m);
+    return std::make_tuple(a.distance_m, c_m.x, c_m.y, c_m.z, a.piece, a.u, a.v,
                            a.certificate.lower_m, a.certificate.steps, a.certificate.exact);
   };
   answer_rows(

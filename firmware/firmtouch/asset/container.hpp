@@ -3,6 +3,7 @@
 
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/core/span.hpp"
+#include "firmtouch/math/vec3.hpp"
 
 namespace firmtouch::asset {
 
@@ -33,6 +34,9 @@ class Container {
   /// Bounds: O(sections). Result: kNoSection if there is none.
   uint32_t next_of_type(uint32_t type, uint32_t from = 0) const;
 
+  /// What the coordinates of all geometries count from, in those of their files: add it to an
+  /// object's place. 0 where the asset has none.
+  math::Vec3 origin_m() const { return origin_m_; }
   core::Bytes bytes() const { return file_; }
   /// Identity of the asset: the header's CRC, which covers the CRCs of table and sections.
   uint32_t crc() const;
@@ -41,6 +45,7 @@ class Container {
   friend class Proof;
   core::Bytes file_;
   core::Span<const Entry> entries_;
+  math::Vec3 origin_m_;
 };
 
 /// Length of the asset at the start of `region`, which may be longer (memory-mapped flash).

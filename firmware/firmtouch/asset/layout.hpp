@@ -20,6 +20,9 @@ constexpr uint32_t kNameBytes = 32;  // up to 31 bytes of UTF-8 and at least one
 // 0x2001.. curve/layout.hpp. A reader skips unknown types.
 constexpr uint32_t kBoundsSection = 0x0001;      // text: bounds that the baker measured and proved
 constexpr uint32_t kProvenanceSection = 0x0002;  // text: source, hash, options, tool version
+constexpr uint32_t kOriginSection = 0x0003;      // f32[3]: what stored coordinates count from
+
+constexpr float kMaxOrigin_m = 1e9f;  // on an axis
 
 struct Header {
   uint32_t magic;
@@ -100,6 +103,12 @@ enum Rule : uint16_t {
   kRuleSectionCrc = 25,
   // The padding behind a section is not zero.
   kRuleSectionPadding = 26,
+  // An origin is not 12 bytes.
+  kRuleOriginSize = 27,
+  // A coordinate of an origin is NaN or beyond 1e9 m.
+  kRuleOriginValue = 28,
+  // There are two origins.
+  kRuleSecondOrigin = 29,
 };
 
 }  // namespace firmtouch::asset

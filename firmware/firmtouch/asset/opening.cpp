@@ -55,7 +55,8 @@ const query::CheckStage Proof::kStages[3] = {
      Stage::finish<&Proof::finish_table>},
     {10, Stage::count<&Proof::entry_count>, Stage::each<&Proof::check_entry>,
      Stage::finish<&Proof::finish_entries>},
-    {10, Stage::count<&Proof::pieces_and_sections>, Stage::all<&Proof::check_sections>}};
+    {10, Stage::count<&Proof::pieces_and_sections>, Stage::all<&Proof::check_sections>,
+     Stage::finish<&Proof::take_origin>}};
 
 Verdict Proof::take(core::Bytes file) {
   if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);
@@ -155,6 +156,19 @@ Verdict Proof::check_sections(uint32_t, uint32_t end) {
     ++section_;
     crc_ = 0;
   }
+  return kPassed;
+}
+
+Verdict Proof::take_origin() {
+  const uint32_t i = view.next_of_type(kOriginSection);
+  if (i == kNoSection) return kPassed;
+  const core::Bytes section = view.section(i);
+  if (section.size() != sizeof(math::Vec3)) return reject(kRuleOriginSize, i);
+  const core::Span<const float> xyz_m = core::as_array<float>(section, 3);
+  for (const float x_m : xyz_m)
+    if (!(__builtin_fabsf(x_m) <= kMaxOrigin_m)) return reject(kRuleOriginValue, i);
+  if (view.next_of_type(kOriginSection, i + 1) != kNoSection) return reject(kRuleSecondOrigin, i);
+  view.origin_m_ = {xyz_m[0], xyz_m[1], xyz_m[2]};
   return kPassed;
 }
 

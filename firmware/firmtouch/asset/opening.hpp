@@ -8,7 +8,7 @@
 
 namespace firmtouch::asset {
 
-/// What Opening proves of an asset file: header, table and section CRCs, rules R1 to R26 of
+/// What Opening proves of an asset file: header, table and section CRCs, rules R1 to R29 of
 /// tools/FORMAT.md. A verdict's element is the section's index in the table (rules of the header:
 /// 0).
 class Proof {
@@ -31,6 +31,7 @@ class Proof {
   core::Verdict check_entry(uint32_t i);
   core::Verdict check_extent(uint32_t i);
   core::Verdict check_sections(uint32_t first, uint32_t end);
+  core::Verdict take_origin();
 
   uint32_t crc_ = 0;      // of the current section's or the table's bytes so far
   uint32_t section_ = 0;  // the current one

@@ -75,6 +75,13 @@ ObjectLayout read_line(LineReader& words, const std::vector<std::string>& meshes
 
 }  // namespace
 
+bool turns(const ObjectLayout& object) {
+  float turn = 0;
+  for (const float w : object.turn_rad_per_s) turn += std::fabs(w);
+  for (size_t i = 0; i < 9; ++i) turn += std::fabs(object.rotation[i] - (i % 4 == 0 ? 1.0f : 0.0f));
+  return turn > 0;
+}
+
 std::vector<ObjectLayout> read_objects(const std::string& file, const std::string& text,
                                        const std::vector<std::string>& meshes) {
   std::vector<ObjectLayout> objects;

@@ -12,4 +12,7 @@ namespace firmtouch::tools {
 std::vector<scene::ObjectLayout> read_objects(const std::string& file, const std::string& text,
                                               const std::vector<std::string>& meshes);
 
+/// Whether it is turned against its mesh, or turns by commands.
+bool turns(const scene::ObjectLayout& object);
+
 }  // namespace firmtouch::tools

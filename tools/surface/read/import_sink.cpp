@@ -247,8 +247,8 @@ void ImportSink::report_rounding() {
   note("rounded coordinates to 32 bits, which moved vertices by up to " +
        frame.length_text(moved_m) + " (" + share + " of the diagonal), as they lie " +
        frame.length_text(reach_m) +
-       " from the origin: answers are those of the rounded surface; move the model to the origin, "
-       "as with --centre, where that is too much");
+       " from the origin that the models share: answers are those of the rounded surface; where "
+       "that is too much, bake it alone, or move it there");
 }
 
 const char* known_by_content(std::string_view bytes) {
