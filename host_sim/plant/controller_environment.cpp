@@ -5,13 +5,14 @@ namespace firmtouch::host_sim {
 
 namespace {
 
-// As the controller places them.
-std::vector<PlacedMesh> meshes_of(const ToolController& controller, Vec origin_m) {
+// As the controller places them, in its float32.
+std::vector<PlacedMesh> meshes_of(const ToolController& controller, Vec scene_m) {
+  const math::Vec3 scene = tools::to_vec3(scene_m), asset = controller.asset_origin_m();
+  const math::Vec3 origin{scene.x + asset.x, scene.y + asset.y, scene.z + asset.z};
   std::vector<PlacedMesh> meshes;
   const auto add = [&](const char* name, const mesh::View& mesh, const scene::Object& object) {
     meshes.push_back({name, mesh, object});
     math::Vec3& at_m = meshes.back().object.pose.translation_m;
-    const math::Vec3 origin = tools::to_vec3(origin_m);
     at_m = {at_m.x + origin.x, at_m.y + origin.y, at_m.z + origin.z};
   };
   const MeshObjects& objects = controller.objects();
@@ -23,7 +24,7 @@ std::vector<PlacedMesh> meshes_of(const ToolController& controller, Vec origin_m
 
 }  // namespace
 
-Environment environment_of(const ToolController& controller, Vec origin_m) {
+Environment environment_of(const ToolController& controller, Vec scene_m) {
   std::vector<Vec> guide;
   if (controller.curve().is_open())
     for (const curve::Sample& s : controller.curve().samples())
@@ -42,8 +43,8 @@ Environment environment_of(const ToolController& controller, Vec origin_m) {
                          controller.spline_guide().chains().size() == 1 &&
                          controller.spline_guide().chains()[0].is_closed != 0;
   if (is_closed) guide.back() = guide.front();
-  Environment environment(meshes_of(controller, origin_m), controller.spline_surface(),
-                          std::move(guide), origin_m);
+  Environment environment(meshes_of(controller, scene_m), controller.spline_surface(),
+                          std::move(guide), scene_m, tools::to_point(controller.asset_origin_m()));
   std::vector<std::string> materials;
   for (const scene::MaterialLayout& material : controller.materials().table())
     materials.emplace_back(material.name);

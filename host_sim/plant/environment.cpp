@@ -20,10 +20,11 @@ constexpr uint32_t kMaxVisits = 20000;  // the hand's aim does not need an exact
 }  // namespace
 
 Environment::Environment(std::vector<PlacedMesh> meshes, const spline::View& surface,
-                         std::vector<Vec> guide_m, Vec origin_m)
+                         std::vector<Vec> guide_m, Vec scene_m, Vec asset_origin_m)
     : meshes_(std::move(meshes)),
       surface_(surface),
-      origin_m_(origin_m),
+      origin_m_(scene_m + asset_origin_m),
+      scene_m_(scene_m),
       guide_m_(std::move(guide_m)) {
   if (surface_.is_open()) tessellation_ = tessellate(surface_);
   double arc = 0;

@@ -21,9 +21,9 @@ class Environment {
  public:
   Environment() = default;
   /// Meshes in the device frame, or open spline surfaces, or neither; and a polyline `guide_m`.
-  /// These two are moved by `origin_m`.
+  /// These two are moved by `scene_m`, and by what the asset's coordinates count from.
   Environment(std::vector<PlacedMesh> meshes, const spline::View& surface, std::vector<Vec> guide_m,
-              Vec origin_m);
+              Vec scene_m, Vec asset_origin_m = {});
 
   struct Surface {
     Vec point_m, normal;
@@ -59,7 +59,10 @@ class Environment {
   const Tessellation& tessellation() const { return tessellation_; }
   /// Parameter surface_turned: the free side of the spline surfaces is opposite to their normals.
   void turn(bool normals_inward) { normals_inward_ = normals_inward; }
+  /// What the asset's coordinates count from, in the device frame.
   Vec origin_m() const { return origin_m_; }
+  /// The place of the models' coordinates.
+  Vec scene_m() const { return scene_m_; }
   /// Spheres of the asset's tool, in its handle's frame; empty: one sphere at the tip.
   const std::vector<scene::SphereLayout>& tool() const { return tool_; }
   void set_tool(std::vector<scene::SphereLayout> spheres) { tool_ = std::move(spheres); }
@@ -73,14 +76,14 @@ class Environment {
   spline::View surface_;
   Tessellation tessellation_;
   bool normals_inward_ = false;
-  Vec origin_m_;
+  Vec origin_m_, scene_m_;
   std::vector<scene::SphereLayout> tool_;
   std::vector<Vec> guide_m_;
   std::vector<double> arc_m_;
   bool closed_ = false;
 };
 
-/// Surface and guide of the controller's asset, moved by `origin_m`.
-Environment environment_of(const ToolController& controller, Vec origin_m);
+/// Surface and guide of the controller's asset, moved by `scene_m`.
+Environment environment_of(const ToolController& controller, Vec scene_m);
 
 }  // namespace firmtouch::host_sim

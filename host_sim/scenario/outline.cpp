@@ -110,7 +110,7 @@ std::vector<Vec> outline(const Environment& environment, double height_m) {
   for (Vec& p : loop) {
     const Environment::Surface surface =
         environment.nearest(environment.meshes().front().to_device(p));
-    p = surface.point_m - environment.origin_m() + surface.normal * height_m;
+    p = surface.point_m - environment.scene_m() + surface.normal * height_m;
   }
   for (int round = 0; round < kSmoothings; ++round) {
     std::vector<Vec> smooth(loop.size());

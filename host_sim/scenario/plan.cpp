@@ -112,7 +112,7 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
   if (device.linkage == nullptr) {
     add_axes(out, box, diagonal);
   } else {  // the start is at the middle of its joints' ranges
-    const Vec origin = environment.origin_m();
+    const Vec origin = environment.scene_m();
     out.line("device " + tools::path_word(device.file));
     out.add("scene_x %.6g m\nscene_y %.6g m\nscene_z %.6g m", origin.x, origin.y, origin.z);
   }

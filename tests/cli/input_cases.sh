@@ -198,6 +198,7 @@ FarPartsAnswerInTheFilesCoordinates() {
   same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f ", $2 }')" '0.500000 '
   bend | awk -F, 'NR > 1 { $0 = $1 + 1000.1 "," $2 - 2000.2 "," $3 + 3000.3 } { print }' >rail.csv
   bake rail.csv -o rail.fta
+  says 'reaches 3001 m from the origin'
   printf 'x[mm],y[mm],z[mm]\n1002100,-2000150,3000300\n' >rows.csv
   f query rail.fta rail curve <rows.csv
   same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f %.6f %.6f %.6f", $1, $2, $3, $4 }')" \

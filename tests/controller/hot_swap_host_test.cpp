@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "bake/asset/origin.hpp"
 #include "controller/ride.hpp"
 #include "harness/long.hpp"
 #include "harness/random.hpp"
@@ -17,14 +18,17 @@ using Swapping = SwappingController;
 constexpr float kSlew_N_per_s = 400.0f;  // 0.4 N a tick of 1 ms
 
 // The part turned on its head and raised by 3 mm: the ride is inside of it here, and clear there.
+// Its coordinates count from another origin.
 const Asset& other() {
   static const Asset made([] {
     tools::Surface mesh = tools::make_part(2, 4000);
     for (math::Vec3& vertex : mesh.vertices) {
       vertex.z = 0.003f - vertex.z;
-      vertex.y = -vertex.y;
+      vertex.y = -vertex.y - 4;
     }
-    return file_of(mesh_sections(mesh, "lid"));
+    std::vector<tools::Section> sections = mesh_sections(mesh, "lid");
+    sections.push_back(tools::origin_section({0, 4, 0}));
+    return file_of(std::move(sections));
   }());
   return made;
 }

@@ -8,7 +8,7 @@ if(TARGET firmtouch_host_sim AND TARGET firmtouch_tools_bake)
   if(FIRMTOUCH_EIGEN)
     target_include_directories(test_host_sim SYSTEM PRIVATE ${FIRMTOUCH_EIGEN})
   endif()
-  foreach(name outputs objects materials tool linkage teach sweep failures export score benches)
+  foreach(name outputs objects materials tool linkage teach sweep failures export score benches origin)
     add_test(NAME host_sim.${name} COMMAND ${CMAKE_CURRENT_LIST_DIR}/run_${name} $<TARGET_FILE_DIR:firmtouch-sim>)
   endforeach()
   add_test(NAME host_sim.splines

@@ -42,11 +42,12 @@ tools::Facts facts_of(const curve::View& view, const tools::CurveReport& report,
 // What the parameters workspace_half_x_m, _y_m and _z_m are where nobody sets them.
 constexpr double kUsualWorkspace_m = 0.5;
 
-double reach_of(const curve::View& view) {
+double reach_of(const curve::View& view, const tools::Point& origin_m) {
+  const double origin[3] = {origin_m.x, origin_m.y, origin_m.z};
   double reach_m = 0;
   for (int k = 0; k < 3; ++k)
-    reach_m = std::max({reach_m, -static_cast<double>(view.head().low_m[k]),
-                        static_cast<double>(view.head().high_m[k])});
+    reach_m = std::max({reach_m, -static_cast<double>(view.head().low_m[k]) - origin[k],
+                        static_cast<double>(view.head().high_m[k]) + origin[k]});
   return reach_m;
 }
 
@@ -110,7 +111,7 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
                steps.random_mean, steps.random_worst),
       sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
                steps.path_mean, steps.path_worst)};
-  const double reach_m = reach_of(view);
+  const double reach_m = reach_of(view, options.model.origin_m);
   if (reach_m > kUsualWorkspace_m)
     baked.report.push_back(
         sentence("reaches %.4g m from the origin, beyond the usual workspace of %.4g m along each "

@@ -36,7 +36,10 @@ class Container {
 
   /// What the coordinates of all geometries count from, in those of their files: add it to an
   /// object's place. 0 where the asset has none.
-  math::Vec3 origin_m() const { return origin_m_; }
+  math::Vec3 origin_m() const {
+    return origin_m_ == nullptr ? math::Vec3{}
+                                : math::Vec3{origin_m_[0], origin_m_[1], origin_m_[2]};
+  }
   core::Bytes bytes() const { return file_; }
   /// Identity of the asset: the header's CRC, which covers the CRCs of table and sections.
   uint32_t crc() const;
@@ -45,7 +48,7 @@ class Container {
   friend class Proof;
   core::Bytes file_;
   core::Span<const Entry> entries_;
-  math::Vec3 origin_m_;
+  const float* origin_m_ = nullptr;
 };
 
 /// Length of the asset at the start of `region`, which may be longer (memory-mapped flash).

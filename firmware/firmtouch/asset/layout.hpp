@@ -22,7 +22,7 @@ constexpr uint32_t kBoundsSection = 0x0001;      // text: bounds that the baker 
 constexpr uint32_t kProvenanceSection = 0x0002;  // text: source, hash, options, tool version
 constexpr uint32_t kOriginSection = 0x0003;      // f32[3]: what stored coordinates count from
 
-constexpr float kMaxOrigin_m = 1e9f;  // on an axis
+constexpr float kMaxOrigin_m = 1e9f;  // |x| + |y| + |z|
 
 struct Header {
   uint32_t magic;
@@ -105,7 +105,7 @@ enum Rule : uint16_t {
   kRuleSectionPadding = 26,
   // An origin is not 12 bytes.
   kRuleOriginSize = 27,
-  // A coordinate of an origin is NaN or beyond 1e9 m.
+  // The sizes of an origin's coordinates add up to more than 1e9 m, or one is NaN.
   kRuleOriginValue = 28,
   // There are two origins.
   kRuleSecondOrigin = 29,

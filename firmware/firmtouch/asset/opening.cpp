@@ -55,8 +55,7 @@ const query::CheckStage Proof::kStages[3] = {
      Stage::finish<&Proof::finish_table>},
     {10, Stage::count<&Proof::entry_count>, Stage::each<&Proof::check_entry>,
      Stage::finish<&Proof::finish_entries>},
-    {10, Stage::count<&Proof::pieces_and_sections>, Stage::all<&Proof::check_sections>,
-     Stage::finish<&Proof::take_origin>}};
+    {10, Stage::count<&Proof::pieces_and_sections>, Stage::all<&Proof::check_sections>}};
 
 Verdict Proof::take(core::Bytes file) {
   if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);
@@ -107,7 +106,20 @@ Verdict Proof::check_extent(uint32_t i) {
   // it.
   free_ += entry.bytes;
   free_ += (kAlignment - free_ % kAlignment) % kAlignment;
-  return kPassed;
+  const uint16_t rule = entry.type == kOriginSection ? take_origin(entry) : uint16_t{0};
+  return {rule, i};
+}
+
+// Pre: the section lies in the file.
+uint16_t Proof::take_origin(const Entry& entry) {
+  if (entry.bytes != 3 * sizeof(float)) return kRuleOriginSize;
+  if (view.origin_m_ != nullptr) return kRuleSecondOrigin;
+  const float* const at_m =
+      core::as_array<float>(slice(view.file_, entry.offset, entry.bytes), 3).data();
+  view.origin_m_ = at_m;
+  const float sum_m =
+      __builtin_fabsf(at_m[0]) + __builtin_fabsf(at_m[1]) + __builtin_fabsf(at_m[2]);
+  return sum_m <= kMaxOrigin_m ? 0 : kRuleOriginValue;
 }
 
 uint32_t Proof::table_bytes() const {
@@ -156,19 +168,6 @@ Verdict Proof::check_sections(uint32_t, uint32_t end) {
     ++section_;
     crc_ = 0;
   }
-  return kPassed;
-}
-
-Verdict Proof::take_origin() {
-  const uint32_t i = view.next_of_type(kOriginSection);
-  if (i == kNoSection) return kPassed;
-  const core::Bytes section = view.section(i);
-  if (section.size() != sizeof(math::Vec3)) return reject(kRuleOriginSize, i);
-  const core::Span<const float> xyz_m = core::as_array<float>(section, 3);
-  for (const float x_m : xyz_m)
-    if (!(__builtin_fabsf(x_m) <= kMaxOrigin_m)) return reject(kRuleOriginValue, i);
-  if (view.next_of_type(kOriginSection, i + 1) != kNoSection) return reject(kRuleSecondOrigin, i);
-  view.origin_m_ = {xyz_m[0], xyz_m[1], xyz_m[2]};
   return kPassed;
 }
 

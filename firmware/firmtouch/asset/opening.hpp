@@ -31,7 +31,7 @@ class Proof {
   core::Verdict check_entry(uint32_t i);
   core::Verdict check_extent(uint32_t i);
   core::Verdict check_sections(uint32_t first, uint32_t end);
-  core::Verdict take_origin();
+  uint16_t take_origin(const Entry& entry);
 
   uint32_t crc_ = 0;      // of the current section's or the table's bytes so far
   uint32_t section_ = 0;  // the current one

@@ -102,6 +102,7 @@ class Controller {
     Device& device = scene().device;
     const AssetStatus asset = scene().loaders.status();
     ControllerCore::Tick tick = core_.begin_tick(input, asset, output);
+    tick.request.asset = &scene().loaders.container();
     if (is_taken)  // no row has this number
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
     if constexpr (Device::kKnowsWalls)
@@ -159,6 +160,8 @@ class Controller {
   const Device& device() const { return scene().device; }
   /// Identifies the asset; 0 before the asset's frame is proven.
   uint32_t asset_crc() const { return scene().loaders.container().crc(); }
+  /// What its coordinates count from (asset::Container).
+  math::Vec3 asset_origin_m() const { return scene().loaders.container().origin_m(); }
   core::Bytes asset() const { return scene().loaders.container().bytes(); }
 
  private:

@@ -2,8 +2,9 @@
 
 namespace firmtouch {
 
-void set_guide(const params::Values& v, uint32_t ticks, scene::Guide& guide) {
-  guide.pose.translation_m = scene_origin_m(v);
+void set_guide(const ModelRequest& request, const params::Values& v, uint32_t ticks,
+               scene::Guide& guide) {
+  guide.pose.translation_m = scene_origin_m(request, v);
   guide.material = {v[params::kGuideStiffness], v[params::kGuideDamping]};
   guide.snap_m = v[params::kGuideSnap];
   guide.release_m = v[params::kGuideRelease];
@@ -23,7 +24,7 @@ void report_guide(const scene::GuideTouch& touch, ModelResult& result) {
 
 void CurveGuide::follow(const ModelRequest& request, const params::Values& v, ModelResult& result) {
   scene::CurveGuide guide;
-  set_guide(v, result.ticks, guide);
+  set_guide(request, v, result.ticks, guide);
   guide.curve = &curve();
   scene::follow_curve(guide, request.position_m, work_budget(v, params::kGuideWork, result), touch_,
                       result.model);

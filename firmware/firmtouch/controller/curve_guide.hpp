@@ -11,7 +11,8 @@
 namespace firmtouch {
 
 /// Fills a guide's settings from the parameters. `ticks`: since the last model.
-void set_guide(const params::Values& values, uint32_t ticks, scene::Guide& guide);
+void set_guide(const ModelRequest& request, const params::Values& values, uint32_t ticks,
+               scene::Guide& guide);
 void report_guide(const scene::GuideTouch& touch, ModelResult& result);
 
 /// A guide policy: a sampled curve.

@@ -17,11 +17,11 @@ void report_texture(math::Vec3 proxy_m, ModelResult& result) {
 template <class... Others>
 void MaterialMeshWith<Others...>::touch(const ModelRequest& request, const params::Values& v,
                                         ModelResult& result) {
-  const scene::MaterialMeshObject object{Mesh::object(v), &materials()};
+  const scene::MaterialMeshObject object{Mesh::object(request, v), &materials()};
   scene::MeshTouchedWith<Mesh::kHasField, Mesh::kHasHull, scene::MaterialMeshObject> shape{
       object, this->hint_};
   SurfaceTouch& touch = this->touch_;
-  use_origin(scene_origin_m(v), touch);
+  use_origin(object.pose.translation_m, touch);
   scene::touch_materials(proxy_contact(request, v, result), object, shape, touch, state_,
                          result.model);
   report_proxy(touch, request.position_m, result);

@@ -100,7 +100,7 @@ void MeshObjects::advance(float passed_s) {
 
 void MeshObjects::touch(const ModelRequest& request, const params::Values& values,
                         ModelResult& result) {
-  const math::Vec3 origin_m = scene_origin_m(values);
+  const math::Vec3 origin_m = scene_origin_m(request, values);
   if (!scene::is_same(origin_m, origin_m_)) place(origin_m);
   Shapes shapes{*this};
   scene::touch_objects(proxy_contact(request, values, result), {object_, pair_, stored_.size()},

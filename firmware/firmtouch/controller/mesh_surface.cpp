@@ -7,7 +7,7 @@ namespace firmtouch {
 template <class... Others>
 void MeshWith<Others...>::touch(const ModelRequest& request, const params::Values& v,
                                 ModelResult& result) {
-  const scene::MeshObject touched = object(v);
+  const scene::MeshObject touched = object(request, v);
   touch_shape(scene::MeshTouchedWith<kHasField, kHasHull>{touched, hint_}, request, v, touch_,
               result);
 }
@@ -15,9 +15,9 @@ void MeshWith<Others...>::touch(const ModelRequest& request, const params::Value
 template <class... Others>
 void MeshWith<Others...>::touch_by_penalty(const ModelRequest& request, const params::Values& v,
                                            PenaltyTouch& touch, ModelResult& result) const {
-  scene::touch_mesh<kHasField, kHasHull>(object(v), v[params::kToolRadius], request.position_m,
-                                         work_budget(v, params::kMeshWork, result), touch,
-                                         result.model);
+  scene::touch_mesh<kHasField, kHasHull>(
+      object(request, v), v[params::kToolRadius], request.position_m,
+      work_budget(v, params::kMeshWork, result), touch, result.model);
   report_surface(touch.closest.certificate, touch.closest.distance_m, touch.penetration_m, result);
   result.steps += touch.base_hull_steps;
   if (touch.is_of_base_hull) result.state |= record::kStateOfBaseHull;

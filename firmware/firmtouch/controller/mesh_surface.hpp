@@ -61,14 +61,15 @@ class MeshWith : public MeshContact, public LoaderChain<mesh::Loader, Others...>
                         PenaltyTouch& touch, ModelResult& result) const;
 
  protected:
-  scene::MeshObject object(const params::Values& values) const;
+  scene::MeshObject object(const ModelRequest& request, const params::Values& values) const;
 };
 
 template <class... Others>
-scene::MeshObject MeshWith<Others...>::object(const params::Values& v) const {
+scene::MeshObject MeshWith<Others...>::object(const ModelRequest& request,
+                                              const params::Values& v) const {
   scene::MeshObject object;
   object.mesh = &mesh();
-  object.pose.translation_m = scene_origin_m(v);
+  object.pose.translation_m = scene_origin_m(request, v);
   object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   if constexpr (kHasField) object.distance_field = &distance_field();
   if constexpr (kHasHull) object.base_hull = &hull().base_hull();

@@ -44,7 +44,7 @@ void MeshTool::reset() {
 
 void MeshTool::touch(const ModelRequest& request, const params::Values& values,
                      ModelResult& result) {
-  const math::Vec3 origin_m = scene_origin_m(values);
+  const math::Vec3 origin_m = scene_origin_m(request, values);
   if (!scene::is_same(origin_m, origin_m_)) {
     origin_m_ = origin_m;
     scene::reset(touch_);

@@ -26,6 +26,12 @@ void report_guide(const query::Certificate& certificate, float deviation_m, floa
   if (certificate.exact) result.state |= record::kStateGuideExact;
 }
 
+math::Vec3 scene_origin_m(const ModelRequest& request, const params::Values& values) {
+  const math::Vec3 asset_m = request.asset == nullptr ? math::Vec3{} : request.asset->origin_m();
+  return {values[params::kSceneX] + asset_m.x, values[params::kSceneY] + asset_m.y,
+          values[params::kSceneZ] + asset_m.z};
+}
+
 query::Budget work_budget(const params::Values& values, params::Index row,
                           const ModelResult& result) {
   const auto most = static_cast<uint32_t>(values[row]);

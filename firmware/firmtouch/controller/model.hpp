@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/asset/container.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/params/entry.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -11,6 +12,7 @@
 namespace firmtouch {
 
 struct ModelRequest {
+  const asset::Container* asset = nullptr;
   math::Vec3 position_m;
   uint32_t tick = 0;
   bool can_touch = false;  // asset ready, position known, no overload
@@ -37,10 +39,9 @@ void report_surface(const query::Certificate& certificate, float distance_m, flo
 void report_guide(const query::Certificate& certificate, float deviation_m, float arc, bool is_held,
                   ModelResult& result);
 
-/// Origin of the scene in the device frame.
-inline math::Vec3 scene_origin_m(const params::Values& values) {
-  return {values[params::kSceneX], values[params::kSceneY], values[params::kSceneZ]};
-}
+/// What the asset's coordinates count from, in the device frame: its origin, moved by the scene's
+/// place. Error: one rounding, of the sum.
+math::Vec3 scene_origin_m(const ModelRequest& request, const params::Values& values);
 /// Of a row, and of what the tick's other queries have left.
 query::Budget work_budget(const params::Values& values, params::Index row,
                           const ModelResult& result);

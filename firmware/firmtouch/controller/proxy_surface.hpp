@@ -20,11 +20,11 @@ struct SurfaceTouch : scene::ProxyTouch {
 /// Contact begins anew where the scene was moved: nothing that was certified holds there.
 void use_origin(math::Vec3 origin_m, SurfaceTouch& touch);
 
-/// Contact with a shape in a tick.
+/// Contact with a shape in a tick. `shape.object` has its pose.
 template <class Shape>
 void touch_shape(Shape shape, const ModelRequest& request, const params::Values& values,
                  SurfaceTouch& touch, ModelResult& result) {
-  use_origin(scene_origin_m(values), touch);
+  use_origin(shape.object.pose.translation_m, touch);
   scene::touch_by_proxy(proxy_contact(request, values, result), shape, touch, result.model);
   report_proxy(touch, request.position_m, result);
 }

@@ -4,10 +4,11 @@
 
 namespace firmtouch {
 
-scene::SplineObject SplineSurface::object(const params::Values& v) const {
+scene::SplineObject SplineSurface::object(const ModelRequest& request,
+                                          const params::Values& v) const {
   scene::SplineObject object;
   object.surface = &surface();
-  object.pose.translation_m = scene_origin_m(v);
+  object.pose.translation_m = scene_origin_m(request, v);
   object.material = {v[params::kContactStiffness], v[params::kContactDamping]};
   object.is_turned = v[params::kSurfaceTurned] >= 0.5f;
   object.is_closed = v[params::kSurfaceClosed] >= 0.5f;
@@ -16,13 +17,13 @@ scene::SplineObject SplineSurface::object(const params::Values& v) const {
 
 void SplineSurface::touch(const ModelRequest& request, const params::Values& v,
                           ModelResult& result) {
-  const scene::SplineObject touched_object = object(v);
+  const scene::SplineObject touched_object = object(request, v);
   touch_shape(scene::SplineTouched{touched_object, hint_}, request, v, touch_, result);
 }
 
 void SplineSurface::touch_by_penalty(const ModelRequest& request, const params::Values& v,
                                      PenaltyTouch& touch, ModelResult& result) const {
-  scene::touch_spline(object(v), v[params::kToolRadius], request.position_m,
+  scene::touch_spline(object(request, v), v[params::kToolRadius], request.position_m,
                       work_budget(v, params::kMeshWork, result), touch, result.model);
   const spline::Closest& closest = touch.closest;
   const bool is_inside = closest.certificate.sign < 0;

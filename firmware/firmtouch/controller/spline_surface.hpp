@@ -30,7 +30,7 @@ class SplineSurface : public spline::SurfaceLoader {
                         PenaltyTouch& touch, ModelResult& result) const;
 
  private:
-  scene::SplineObject object(const params::Values& values) const;
+  scene::SplineObject object(const ModelRequest& request, const params::Values& values) const;
 
   SurfaceTouch touch_;
   spline::Hint hint_;

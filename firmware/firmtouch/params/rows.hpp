@@ -73,11 +73,11 @@ struct DeviceRows {
 struct SceneRows {
   static constexpr Entry kRows[] = {
       {kSceneX, "scene_x_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
-       "position of the asset's origin"},
+       "position of the model's origin"},
       {kSceneY, "scene_y_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
-       "position of the asset's origin"},
+       "position of the model's origin"},
       {kSceneZ, "scene_z_m", "m", -10.0f, 10.0f, 0.0f, When::kMotorsOff,
-       "position of the asset's origin"},
+       "position of the model's origin"},
   };
 };
 

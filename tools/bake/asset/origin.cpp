@@ -24,7 +24,7 @@ Point origin_for(Point low_m, Point high_m) {
                                     half_unit_m(low_m.z, high_m.z)});
   const Point middle = (low_m + high_m) * 0.5;
   const double reach_m =
-      std::max({std::fabs(middle.x), std::fabs(middle.y), std::fabs(middle.z)}) + diagonal_m;
+      std::fabs(middle.x) + std::fabs(middle.y) + std::fabs(middle.z) + diagonal_m;
   const bool is_held = rounding_m <= static_cast<double>(mesh::kMaxRounding) * diagonal_m;
   if (is_held || !(diagonal_m > 0) || !(reach_m <= static_cast<double>(asset::kMaxOrigin_m)))
     return {};
