@@ -280,7 +280,8 @@ TEST(Rule29_RejectsSecondOrigin) {
 
 TEST(Origin_IsRead_AndZeroWithoutOne) {
   Container container;
-  CHECK(firmtouch::asset::open(with_origin(5.0f).all(), container).ok());
+  const SmallFile file = with_origin(5.0f);
+  CHECK(firmtouch::asset::open(file.all(), container).ok());
   CHECK_EQ(static_cast<int>(container.origin_m().x), 5);
   CHECK_EQ(static_cast<int>(container.origin_m().y * 2), -5);
   const SmallFile plain;

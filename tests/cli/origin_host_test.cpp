@@ -55,6 +55,15 @@ cli::BakedAsset baked(const std::vector<std::string>& paths) {
   return cli::bake_asset(request, "part.fta");
 }
 
+bool is_refused(const std::vector<std::string>& paths, const char* text) {
+  try {
+    (void)baked(paths);
+    return false;
+  } catch (const cli::Failure& failure) {
+    return failure.message.find(text) != std::string::npos;
+  }
+}
+
 asset::Container opened(const cli::BakedAsset& baked) {
   asset::Container container;
   CHECK(
@@ -159,19 +168,16 @@ TEST(AllInputs_ShareTheOrigin_AndAnAssetKeepsIts) {
   const std::string path =
       folder.write("part.fta", std::string(alone.bytes.begin(), alone.bytes.end()));
   const std::string near_line = folder.write("near.csv", "x,y,z\n0,0,0\n100,0,0\n");
-  const asset::Container with_near = opened(baked({path, near_line}));
-  CHECK(!tools::is_moved(tools::to_point(with_near.origin_m()) -
+  const cli::BakedAsset with_near = baked({path, near_line});
+  CHECK(!tools::is_moved(tools::to_point(opened(with_near).origin_m()) -
                          tools::to_point(opened(alone).origin_m())));
   const cli::BakedAsset other = baked({folder.write("other.obj", tools::to_obj(far_part(2, 30)))});
   const std::string second =
       folder.write("other.fta", std::string(other.bytes.begin(), other.bytes.end()));
-  bool is_refused = false;
-  try {
-    (void)baked({path, second});
-  } catch (const cli::Failure& failure) {
-    is_refused = failure.message.find("another origin") != std::string::npos;
-  }
-  CHECK(is_refused);
+  CHECK(is_refused({path, second}, "another origin"));
+  const std::string turned =
+      folder.write("turned.objects", "object a of part turned 9 deg about 0 0 1\n");
+  CHECK(is_refused({path, turned}, "bake the model instead"));
 }
 
 // A turned object turns about the file's origin, so its asset has no other.

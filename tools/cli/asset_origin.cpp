@@ -22,7 +22,8 @@ bool has_geometry(const asset::Container& asset) {
 }
 
 // Of the assets among the inputs, if any has a geometry.
-std::optional<tools::Point> stored_origin(const std::vector<std::string>& inputs) {
+std::optional<tools::Point> stored_origin(const std::vector<std::string>& inputs,
+                                          bool has_turned_object) {
   std::optional<tools::Point> found;
   std::string first;
   for (const std::string& path : inputs) {
@@ -30,6 +31,10 @@ std::optional<tools::Point> stored_origin(const std::vector<std::string>& inputs
     const LoadedAsset asset(path);
     if (!has_geometry(asset.container())) continue;
     const tools::Point origin_m = tools::to_point(asset.container().origin_m());
+    if (has_turned_object && tools::is_moved(origin_m))
+      fail_input(path +
+                 ": its coordinates count from an origin, and an object that is turned needs those "
+                 "of the model: bake the model instead");
     if (found && tools::is_moved(origin_m - *found))
       fail_input(path + ": its coordinates count from another origin than those of " + first +
                  ": bake the models of both together");
@@ -41,10 +46,10 @@ std::optional<tools::Point> stored_origin(const std::vector<std::string>& inputs
 
 }  // namespace
 
-tools::Point asset_origin(const std::vector<std::string>& inputs, bool is_fixed,
+tools::Point asset_origin(const std::vector<std::string>& inputs, bool has_turned_object,
                           const ModelOptions& options) {
-  const std::optional<tools::Point> stored = stored_origin(inputs);
-  if (stored || is_fixed) return stored.value_or(tools::Point{});
+  const std::optional<tools::Point> stored = stored_origin(inputs, has_turned_object);
+  if (stored || has_turned_object) return stored.value_or(tools::Point{});
   Extent all;
   for (const std::string& path : inputs) {
     const std::string extension = extension_of(path);

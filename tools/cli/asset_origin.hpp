@@ -7,10 +7,9 @@
 namespace firmtouch::cli {
 
 /// What the coordinates of all inputs of a bake count from (bake/asset/origin.hpp): by the box of
-/// their models, but as in an asset that is among them. `is_fixed`: 0 unless such an asset has
-/// another, as an object would turn about it.
-/// Fails (bad input) where assets differ.
-tools::Point asset_origin(const std::vector<std::string>& inputs, bool is_fixed,
+/// their models, but as in an asset that is among them. `has_turned_object`: then 0.
+/// Fails (bad input) where assets differ, or one has an origin that must be 0.
+tools::Point asset_origin(const std::vector<std::string>& inputs, bool has_turned_object,
                           const ModelOptions& options);
 
 /// A sentence of the report.

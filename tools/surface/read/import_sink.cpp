@@ -248,7 +248,7 @@ void ImportSink::report_rounding() {
        frame.length_text(moved_m) + " (" + share + " of the diagonal), as they lie " +
        frame.length_text(reach_m) +
        " from the origin that the models share: answers are those of the rounded surface; where "
-       "that is too much, bake it alone, or move it there");
+       "that is too much, bake it alone, or move it, as with --centre");
 }
 
 const char* known_by_content(std::string_view bytes) {
