@@ -191,6 +191,7 @@ TEST(WhatIsNotReadIsRefusedByEntityWithItsCount) {
       refused(read_entities({{126, arch()}, {110, "110,0,0,0,1,1,1;"}, {110, "110,0,0,0,1,1,1;"}}),
               {"part.igs:5:", "entity 110 in line 5", "only NURBS curves (126)",
                "2 times, last in line 7"}));
+  CHECK(refused_entity({141, "141,0,1,1,1,3,1,0;"}, {"entity 141", "trimmed"}));
   CHECK(refused_entity({142, "142,0,1,0,3,2;"}, {"entity 142", "trimmed"}));
   CHECK(refused(read_entities({{128, sheet()}, {144, "144,1,1,0,5;"}}), {"entity 144", "trimmed"}));
   CHECK(refused_entity({408, "408,1,0.,0.,0.,1.;"}, {"entity 408", "explode"}));

@@ -72,6 +72,19 @@ TEST(UnitsOfTheFileCountUnlessOneIsGiven) {
   }
 }
 
+TEST(AUnitOrScaleThatIsNotUsableIsRefusedUnlessAUnitIsGiven) {
+  for (const char* fields : {"1.,3,7Hfurlong", "1.,12,", "0.,2,2HMM"}) {
+    const std::string global =
+        std::string("1H,,1H;,,5Ht.igs,3Hgen,1H1,32,38,6,308,15,1Ht,") + fields + ";";
+    const std::string text = IgesText({{126, arch()}}, global).text();
+    const SplineModel own = tools::read_spline_bytes(text, "part.igs", 0);
+    CHECK(own.problem.find("give --unit") != own.problem.npos);
+    const SplineModel given = tools::read_spline_bytes(text, "part.igs", 0.5);
+    CHECK(given.problem.empty());
+    CHECK_LE(std::fabs(given.curves.at(0).points[3].x - 0.15), 1e-16);
+  }
+}
+
 TEST(TheModelScaleDividesTheUnit) {
   const std::string global = "1H,,1H;,,5Ht.igs,3Hgen,1H1,32,38,6,308,15,1Ht,.5,6,1HM;";
   const SplineModel model =

@@ -133,7 +133,7 @@ bool split_iges(std::string_view bytes, SplineSink& sink, IgesFile& file) {
   return Splitter(bytes, sink, file).split();
 }
 
-bool read_iges_global(SplineSink& sink, IgesFile& file) {
+bool read_iges_global(SplineSink& sink, double unit_m, IgesFile& file) {
   if (file.global.empty())
     return sink.fail("has no global section (G): export it again as IGES 5.3");
   IgesRecord record = record_of(file.global.data(), file.global.size(), kLetter);
@@ -159,18 +159,20 @@ bool read_iges_global(SplineSink& sink, IgesFile& file) {
                                           std::string(record.field().substr(0, 40)) + "`, " +
                                           wrong + "; export it again");
   }
+  if (unit_m > 0) {
+    file.unit_m = unit_m;
+    return true;
+  }
   if (!(scale > 0))
     return sink.fail(record.line(),
                      "the global section's scale (field 13) is not greater than 0: "
                      "mend it, or give --unit");
-  const double unit_m = flag == 3                ? named_unit_m(name)
-                        : flag > 0 && flag <= 11 ? kUnits_m[flag]
-                                                 : 0;
-  if (!(unit_m > 0))
+  const double own_m = flag == 3 ? named_unit_m(name) : flag > 0 && flag <= 11 ? kUnits_m[flag] : 0;
+  if (!(own_m > 0))
     return sink.fail(record.line(),
                      "the global section's unit (fields 14 and 15: " + std::to_string(flag) +
-                         ", `" + name + "`) is not known: mend it");
-  file.unit_m = unit_m / scale;
+                         ", `" + name + "`) is not known: mend it, or give --unit");
+  file.unit_m = own_m / scale;
   return true;
 }
 

@@ -34,8 +34,8 @@ struct IgesFile {
 /// lines as the last one states.
 bool split_iges(std::string_view bytes, SplineSink& sink, IgesFile& file);
 
-/// Delimiters and unit.
-bool read_iges_global(SplineSink& sink, IgesFile& file);
+/// Delimiters and unit: `unit_m`, or where it is 0 what the file says.
+bool read_iges_global(SplineSink& sink, double unit_m, IgesFile& file);
 
 bool read_iges_directory(SplineSink& sink, IgesFile& file);
 

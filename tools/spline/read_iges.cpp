@@ -19,6 +19,7 @@ constexpr int64_t kWithoutShape[] = {0,   124, 302, 304, 310, 312, 314,
 // What can be done about shapes that are not read.
 const char* remedy_of(int64_t type) {
   switch (type) {
+    case 141:
     case 142:
     case 143:
     case 144:
@@ -58,8 +59,7 @@ struct Placement {
 
 class Reader {
  public:
-  Reader(const IgesFile& file, double unit_m, SplineSink& sink)
-      : file_(file), unit_m_(unit_m), sink_(sink) {}
+  Reader(const IgesFile& file, SplineSink& sink) : file_(file), sink_(sink) {}
 
   void read() {
     for (const IgesEntry& entry : file_.entries) {
@@ -156,7 +156,7 @@ class Reader {
     Placement placement;
     if (!placement_of(entry, placement)) return false;
     for (size_t i = 0; i < count; ++i) {
-      const Point p = placement.place(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]) * unit_m_;
+      const Point p = placement.place(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]) * file_.unit_m;
       into[i].x = p.x, into[i].y = p.y, into[i].z = p.z;
     }
     const SplineDefect far = check_coordinates(into);
@@ -281,7 +281,6 @@ class Reader {
   }
 
   const IgesFile& file_;
-  double unit_m_;
   SplineSink& sink_;
   size_t passed_over_ = 0;
 };
@@ -290,10 +289,10 @@ class Reader {
 
 void read_iges(std::string_view bytes, double unit_m, SplineSink& sink) {
   IgesFile file;
-  if (!split_iges(bytes, sink, file) || !read_iges_global(sink, file) ||
+  if (!split_iges(bytes, sink, file) || !read_iges_global(sink, unit_m, file) ||
       !read_iges_directory(sink, file))
     return;
-  Reader(file, unit_m > 0 ? unit_m : file.unit_m, sink).read();
+  Reader(file, sink).read();
 }
 
 }  // namespace firmtouch::tools
