@@ -1,4 +1,4 @@
-// Patches with a pole: an edge that is one point.
+// Patches that a baker must cut with care: those with a pole, an edge that is one point; too many.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -66,4 +66,26 @@ TEST(WarmAnswersEqualColdAnswers_AlongAPathPastAPole) {
   CHECK_EQ(wrong, 0u);
   CHECK_EQ(inexact, 0u);
   CHECK(expensive > 20);  // the path does pass where the pole costs
+}
+
+// Only halves in u bring its weights together, though it is longer in v beside its point.
+TEST(APieceWithAPoleWhoseWeightsVaryAlongItIsBaked) {
+  tools::SplineSurface s;
+  s.degree_u = 3, s.degree_v = 1;
+  s.count_u = 4, s.count_v = 2;
+  s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1}, s.knots_v = {0, 0, 1, 1};
+  s.u1 = s.v1 = 1;
+  const double weights[] = {0.5, 2, 4, 0.1};
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 4; ++i) s.points.push_back({1.0 * j, 0.3 * i * j, 0.1 * i * j, weights[i]});
+  const BakedModel baked(of(s));
+  CHECK(baked.report.problem.empty());
+  CHECK(baked.report.pieces < 100);
+}
+
+TEST(AModelOfTooManyPiecesIsRefusedWithTheirMostAndTheRemedy) {
+  tools::SplineModel model;
+  model.curves.assign(20001, bezier({{0, 0, 0, 1}, {1, 0, 0, 1}}));
+  CHECK(BakedModel(model).report.problem ==
+        "needs more than 20000 pieces: split the file, or bake with --small");
 }

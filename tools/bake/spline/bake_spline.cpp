@@ -128,6 +128,21 @@ double doubt_of(const StoredPiece& stored, double extent_m) {
   return fourth / (12 * dot(along, along));
 }
 
+// The longer way across is halved; where a weight varies too much on a leaf, the one along which
+// weights vary most: length says nothing of them, and at a pole least.
+bool is_halved_in_v(const StoredPiece& stored, double loss_m) {
+  const spline::LeafShape whole = shape_of(stored, 0, 0, 0, 0);
+  if (stored.piece.is_rational == 0 || loss_m < HUGE_VAL)
+    return length(to_point(whole.c[whole.degree_u + 1])) > length(to_point(whole.c[1]));
+  double varies_u = 0, varies_v = 0;
+  for (uint32_t k = 1; 4 * k < stored.coefficients.size(); ++k) {
+    const double weight = std::fabs(static_cast<double>(stored.coefficients[4 * k + 3]));
+    if (k % (whole.degree_u + 1) != 0) varies_u += weight;
+    if (k > whole.degree_u) varies_v += weight;
+  }
+  return varies_v > varies_u;
+}
+
 // Pieces short enough that float32 loses no more than is promised, and that a point bounds much of
 // those about it.
 std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
@@ -144,15 +159,12 @@ std::vector<StoredPiece> cut(std::vector<BezierPatch> patches, bool is_surface,
     choose_levels(stored, detail, extent_m);
     const bool is_doubtful = !is_surface && stored.piece.is_rational != 0 && made < kMaxCuts &&
                              !(doubt_of(stored, extent_m) <= detail.doubt);
-    if (loss_of(stored) <= max_m && !is_doubtful) {
+    const double loss_m = loss_of(stored);
+    if (loss_m <= max_m && !is_doubtful) {
       pieces.push_back(stored);
       continue;
     }
-    bool along_v = false;
-    if (is_surface) {
-      const spline::LeafShape whole = shape_of(stored, 0, 0, 0, 0);
-      along_v = length(to_point(whole.c[whole.degree_u + 1])) > length(to_point(whole.c[1]));
-    }
+    const bool along_v = is_surface && is_halved_in_v(stored, loss_m);
     const std::vector<BezierPatch> halves = halves_of(patch, along_v);
     patches.push_back(halves[1]);
     patches.push_back(halves[0]);
@@ -315,11 +327,13 @@ std::vector<Section> bake_spline(const SplineModel& model, const std::string& na
   size_t parts = 0;
   for (const StoredPiece& stored : pieces)
     parts += size_t{1} << (stored.piece.level_u + stored.piece.level_v);
-  if (pieces.empty() || parts > spline::kMaxLeaves ||
-      (is_surface && pieces.size() > spline::kMaxPatches)) {
+  if (pieces.empty() || parts > spline::kMaxLeaves) {
     report.problem =
-        "has more pieces than an asset can hold, or weights that vary by more than float32 can "
-        "follow: split the file, or bake with --small";
+        (pieces.empty() ? "needs more than " + std::to_string(kMaxPieces) + " pieces"
+                        : "needs " + std::to_string(parts) + " parts, but an asset holds " +
+                              std::to_string(spline::kMaxLeaves)) +
+        ": split the file, or bake with --small" +
+        (report.is_rational ? "; weights that differ less need fewer" : "");
     return {};
   }
   SplineTree tree;
