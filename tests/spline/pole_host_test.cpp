@@ -1,4 +1,4 @@
-// Patches that a baker must cut with care: those with a pole, an edge that is one point; too many.
+// Patches that the baker must cut with care: with a pole (an edge that is one point), or folded.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -78,6 +78,20 @@ TEST(APieceWithAPoleWhoseWeightsVaryAlongItIsBaked) {
   const double weights[] = {0.5, 2, 4, 0.1};
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 4; ++i) s.points.push_back({1.0 * j, 0.3 * i * j, 0.1 * i * j, weights[i]});
+  const BakedModel baked(of(s));
+  CHECK(baked.report.problem.empty());
+  CHECK(baked.report.pieces < 100);
+}
+
+// Along its fold the first derivative in u vanishes; only halves in u shorten it.
+TEST(ASheetThatFoldsBackOntoItselfIsBaked) {
+  tools::SplineSurface s;
+  s.degree_u = s.degree_v = 2;
+  s.count_u = s.count_v = 3;
+  s.knots_u = s.knots_v = {0, 0, 0, 1, 1, 1};
+  s.u1 = s.v1 = 1;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) s.points.push_back({i == 1 ? 2.0 : 0.0, 0.3 * j, 0.1 * j * j, 1});
   const BakedModel baked(of(s));
   CHECK(baked.report.problem.empty());
   CHECK(baked.report.pieces < 100);

@@ -128,19 +128,21 @@ double doubt_of(const StoredPiece& stored, double extent_m) {
   return fourth / (12 * dot(along, along));
 }
 
-// The longer way across is halved; where a weight varies too much on a leaf, the one along which
-// weights vary most: length says nothing of them, and at a pole least.
+// The longer way across is halved, by all terms of the piece: the first alone vanishes where it
+// folds back. Where a weight varies too much on a leaf, the way along which weights vary most.
 bool is_halved_in_v(const StoredPiece& stored, double loss_m) {
-  const spline::LeafShape whole = shape_of(stored, 0, 0, 0, 0);
-  if (stored.piece.is_rational == 0 || loss_m < HUGE_VAL)
-    return length(to_point(whole.c[whole.degree_u + 1])) > length(to_point(whole.c[1]));
-  double varies_u = 0, varies_v = 0;
-  for (uint32_t k = 1; 4 * k < stored.coefficients.size(); ++k) {
-    const double weight = std::fabs(static_cast<double>(stored.coefficients[4 * k + 3]));
-    if (k % (whole.degree_u + 1) != 0) varies_u += weight;
-    if (k > whole.degree_u) varies_v += weight;
+  const bool is_rational = stored.piece.is_rational != 0;
+  const bool is_by_weight = is_rational && !(loss_m < HUGE_VAL);
+  const size_t columns = size_t{stored.piece.degree_u} + 1, width = is_rational ? 4 : 3;
+  double along_u = 0, along_v = 0;
+  for (size_t k = 1; k * width < stored.coefficients.size(); ++k) {
+    const float* const c = &stored.coefficients[k * width];
+    const double size = is_by_weight ? std::fabs(static_cast<double>(c[3]))
+                                     : length(to_point(math::Vec3{c[0], c[1], c[2]}));
+    if (k % columns != 0) along_u += size;
+    if (k >= columns) along_v += size;
   }
-  return varies_v > varies_u;
+  return along_v > along_u;
 }
 
 // Pieces short enough that float32 loses no more than is promised, and that a point bounds much of
