@@ -93,3 +93,23 @@ TEST(SplineProxy_HostileHands_StaysFiniteAndOutside) {
       CHECK_LE(0.999 * wide(drag.proxy.radius_m), to_torus_m(drag.proxy.position_m));
   }
 }
+
+// On the axis whole rings are equally near. That none is as near as the radius takes little work;
+// which point is nearest takes more than there is, also of a tool that all but fills the hole.
+TEST(SplineProxy_AlongTheAxisOfATorus_IsNotStuckWithLittleWork) {
+  for (const float radius_m : {0.003f, 0.025f}) {
+    Drag drag(0);
+    drag.settings.radius_m = radius_m;
+    drag.settings.budget.work = 240;
+    uint32_t uncertain = 0, most = 0;
+    for (int i = 0; i <= 1000; ++i) {
+      const math::Vec3 hand_m = tools::to_vec3({0, 0, 0.08 - 1.6e-4 * i});
+      const bool is_starved =
+          scene::move_proxy(drag.settings, hand_m, drag.shape, drag.proxy).is_starved;
+      uncertain = is_starved ? uncertain + 1 : 0;
+      most = uncertain > most ? uncertain : most;
+    }
+    CHECK_LT(most, 10u);
+    CHECK_LE(wide(math::length(drag.proxy.position_m - math::Vec3{0, 0, -0.08f})), 1e-6);
+  }
+}

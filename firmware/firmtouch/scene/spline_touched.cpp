@@ -1,5 +1,7 @@
 #include "firmtouch/scene/spline_touched.hpp"
 
+#include <float.h>
+
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/pose_loss.hpp"
 
@@ -11,6 +13,8 @@ using math::Vec3;
 // From this cosine on between the normal and the line to the closest point the normal gives the
 // sign, as in penalty contact.
 constexpr float kAlong = 0.98f;
+// What a bound loses to rounding within ten extents, in extents.
+constexpr float kMargin = 1e-5f;
 
 int8_t sign_of(const SplineObject& object, const spline::Closest& closest, Vec3 off_m) {
   if (!object.is_closed || !closest.certificate.exact) return 0;
@@ -24,11 +28,14 @@ int8_t sign_of(const SplineObject& object, const spline::Closest& closest, Vec3 
 
 float SplineTouched::size_m() const { return object.surface->head().extent_m; }
 
-Near SplineTouched::near(Vec3 x_m, query::Budget budget, float) const {
+Near SplineTouched::near(Vec3 x_m, query::Budget budget, float needed_m) const {
   const Vec3 p_m = math::apply_inverse(object.pose, x_m);
+  const float loss_m = pose_loss_m(object.pose, x_m);
+  // A search that was cut short left no frontier. The next one does only what the move needs.
+  if (budget.band_m < FLT_MAX && hint.frontier.outside == 0)
+    budget.band_m = needed_m + loss_m + kMargin * size_m();
   const spline::Closest closest = spline::closest_on_surface(*object.surface, p_m, budget, hint);
   const query::Certificate& certificate = closest.certificate;
-  const float loss_m = pose_loss_m(object.pose, x_m);
   Near near;
   near.has_inside = object.is_closed;
   near.lower_m = certificate.lower_m > loss_m ? certificate.lower_m - loss_m : 0.0f;

@@ -49,6 +49,20 @@ struct Best {
   }
 };
 
+/// The same of a query that needs nothing beyond a band.
+struct BandedBest : Best {
+  float band_m;
+
+  BandedBest(const Head& head, float band) : Best(head), band_m(math::larger(band, 0.0f)) {}
+  bool take(float d2) {
+    if (!Best::take(d2)) return false;
+    if (band_m < limit_m) limit_m = band_m;
+    return true;
+  }
+  bool is_beyond_band() const { return limit_m >= band_m; }
+  float needed_m() const { return distance_m < band_m ? distance_m : band_m; }
+};
+
 /// Where between 0 and 1, in a hint's 16 bits.
 static inline uint32_t coded(float at, uint32_t most) {
   const float inside = at > 0.0f ? at < 1.0f ? at : 1.0f : 0.0f;

@@ -34,7 +34,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
     return answer_beyond(model, p_m, hint);
   }
   const query::Carried carried = query::carry(hint, p_m);
-  Best best(model.head());
+  BandedBest best(model.head(), budget.band_m);
   SurfaceSearch search(model, p_m, budget.work, best);
   if (hint.safe_subtree != kWithFrontier) FrontierUse(frontier).clear();
   move(p_m, hint, frontier);
@@ -52,7 +52,8 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
   }
   const bool is_first = best.node == query::kNowhere;
   const Vec3 motion_m = is_warm ? p_m - hint.position_m : Vec3{};
-  const query::Certificate certificate = certify(model.head(), p_m, best, search, carried, hint);
+  query::Certificate certificate = certify(model.head(), p_m, best, search, carried, hint);
+  if (best.is_beyond_band()) certificate.exact = false;
   hint.foot = query::kNowhere;
   if (!is_first) search.leave(motion_m, hint);
   hint.safe_subtree = safe_subtree;

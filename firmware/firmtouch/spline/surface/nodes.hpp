@@ -115,7 +115,7 @@ class SurfaceNodes {
     return of_u >> more_u == u && of_v >> more_v == v;
   }
 
-  Outcome solve(uint32_t node, Range& range, float lower_m, query::Work& work, Best& best,
+  Outcome solve(uint32_t node, Range& range, float lower_m, query::Work& work, BandedBest& best,
                 Half<Range> (&halves)[2]) {
     if (best.limit_m <= 0.0f) {
       upper2_ = 0.0f;
@@ -231,7 +231,7 @@ class SurfaceNodes {
   }
 
   void expand(uint32_t node, const Piece& piece, const SurfaceBends& bends, math::Vec3 q_m,
-              const float (&at)[2], Best& best, Quadratic& f) const {
+              const float (&at)[2], BandedBest& best, Quadratic& f) const {
     union Unset {  // else all is cleared by a call, and then set
       SurfacePoint point;
       Unset() {}

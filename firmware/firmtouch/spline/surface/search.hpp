@@ -11,7 +11,7 @@ class SurfaceSearch : public Account {
  public:
   using Range = Rectangle;
 
-  SurfaceSearch(const View& model, math::Vec3 p_m, uint32_t budget, Best& best)
+  SurfaceSearch(const View& model, math::Vec3 p_m, uint32_t budget, BandedBest& best)
       : Account(budget, kVisitWork), nodes_(model, p_m), bounds_(model, p_m), best_(best) {}
 
   bool resume(const CurveHint& hint, uint32_t& leaf, Range& range) const {
@@ -50,7 +50,7 @@ class SurfaceSearch : public Account {
     bool holds = best_.limit_m > 0.0f && use.needs(best_.limit_m, needed);
     if (holds && !look(leaf, is_closed, needed, use, frontier, holds)) return stop();
     if (!holds) {
-      const float reach_m = best_.distance_m + margin_m;
+      const float reach_m = best_.needed_m() + margin_m;
       passed_.start(reach_m);
       if (!ascend(leaf, is_closed, nodes_.root())) return stop();
       use.renew(best_.limit_m, reach_m, passed_);
@@ -303,7 +303,7 @@ class SurfaceSearch : public Account {
 
   SurfaceNodes nodes_;
   PatchBounds bounds_;
-  Best& best_;
+  BandedBest& best_;
   FarNodes passed_;
   uint32_t count_ = 0;
   Entry stack_[kCapacity];
