@@ -153,7 +153,9 @@ cli::Command score_command() {
       R"(Energy given, while no guide holds the tool: the largest gain of the motors' work plus
 what the contact's spring holds. Contact on a guide is the proxy's spring alone. From a
 log it is that of the encoders' positions, from a CSV of the device's. A log has its
-settings; for a CSV they are the parameters' initial values, or those given here.)",
+settings; for a CSV they are the parameters' initial values, or those given here. A part
+of another stiffness needs --stiffness, as does a tool of N spheres: 1/N of the wall's
+where one touches. A part that moves gives energy of its own.)",
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
        {"--asset", "FILE.fta", "of the run: turns of contact that its textures state do not count"},
        {"--force-limit", "N", "force_limit of the run"},

@@ -15,8 +15,9 @@ namespace firmtouch::spline {
 ///         re-entrant; callable from an interrupt.
 /// Result: always finite. Of two points equally near the one found first. Unlimited queries are
 ///         exact except for a rare one within 2e-7 extents of the surface, which says so after many
-///         steps. A query that is not finite returns a point at distance FLT_MAX, lower 0, not
-///         exact.
+///         steps. Beyond budget.band_m an answer is not exact, its lower bound the band less what
+///         rounding loses. A query that is not finite returns a point at distance FLT_MAX, lower 0,
+///         not exact.
 /// Error: distance and, where exact, lower bound within 4e-7 of the extent (rational: 1e-6) and
 ///         9e-7 of the distance of the truth (tests/spline/closest_point_host_test.cpp).
 Closest closest_on_surface(const View& model, math::Vec3 p_m, query::Budget budget, Hint& hint);
