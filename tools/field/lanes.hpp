@@ -33,9 +33,9 @@ struct Lanes {
 
 #define FIRMTOUCH_LANES [[gnu::always_inline]] inline
 
-template <class Operation>
-FIRMTOUCH_LANES Lanes each_part(const Lanes& a, const Lanes& b, const Operation& operation) {
-  Lanes result;
+template <class Result = Lanes, class Given, class Operation>
+FIRMTOUCH_LANES Result each_part(const Given& a, const Given& b, const Operation& operation) {
+  Result result;
   for (uint32_t i = 0; i < kParts; ++i) operation(a.part[i], b.part[i], result.part[i]);
   return result;
 }
@@ -52,14 +52,10 @@ FIRMTOUCH_LANES Lanes operator/(const Lanes& a, const Lanes& b) {
   return each_part(a, b, [](const auto& x, const auto& y, auto& to) { to = x / y; });
 }
 FIRMTOUCH_LANES LaneMask operator<(const Lanes& a, const Lanes& b) {
-  LaneMask mask;
-  for (uint32_t i = 0; i < kParts; ++i) mask.part[i] = a.part[i] < b.part[i];
-  return mask;
+  return each_part<LaneMask>(a, b, [](const auto& x, const auto& y, auto& to) { to = x < y; });
 }
 FIRMTOUCH_LANES LaneMask operator&(const LaneMask& a, const LaneMask& b) {
-  LaneMask mask;
-  for (uint32_t i = 0; i < kParts; ++i) mask.part[i] = a.part[i] & b.part[i];
-  return mask;
+  return each_part<LaneMask>(a, b, [](const auto& x, const auto& y, auto& to) { to = x & y; });
 }
 FIRMTOUCH_LANES Lanes choose(const LaneMask& mask, const Lanes& yes, const Lanes& no) {
   Lanes result;
