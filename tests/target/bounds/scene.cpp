@@ -24,14 +24,26 @@ using math::Vec3;
 constexpr uint32_t kTicks = 20000;
 constexpr query::Budget kBudget{10000};
 
-// What a call takes beside the query that it makes, which is made again.
-template <class Touch, class Contact, class Query>
-void take_beside(Worst& worst, Touch& touch, const Contact& contact, const Query& query) {
-  Touch same = touch;
-  const uint32_t own = instructions_of([&] { query(same); });
-  const uint32_t all = instructions_of([&] { contact(touch); });
-  asm volatile("" ::"r"(&same), "r"(&touch) : "memory");
-  worst.take(all > own ? all - own : 0);
+// What a contact or guide takes beside its query, which is made again: a hand moves about the box
+// of `head`. `set`: before each tick, not counted.
+template <class Touch, class Head, class Set, class Contact, class Query>
+void measure(const char* header, const Head& head, uint32_t seed, const Set& set,
+             const Contact& contact, const Query& query) {
+  Hand hand(head.low_m, head.high_m, seed);
+  Touch touch;
+  servo::LocalModel model;
+  Worst worst;
+  for (uint32_t i = 0; i < kTicks; ++i) {
+    const Vec3 at_m = hand.next(touch.closest.point_m);
+    set(i, touch);
+    scene::begin_model(model, at_m, i, 10);
+    Touch same = touch;
+    const uint32_t own = instructions_of([&] { query(same, at_m); });
+    const uint32_t all = instructions_of([&] { contact(touch, at_m, model); });
+    asm volatile("" ::"r"(&same), "r"(&touch) : "memory");
+    worst.take(all > own ? all - own : 0);
+  }
+  print_figure(header, worst);
 }
 
 void measure_mesh_contact() {
@@ -39,51 +51,34 @@ void measure_mesh_contact() {
   object.mesh = &asset().mesh;
   object.material = {1000, 2};
   const mesh::Head& head = object.mesh->head();
-  Hand hand(head.low_m, head.high_m, 7);
-  const float radius_m = 0.003f;
-  scene::MeshTouch touch;
-  servo::LocalModel model;
-  Worst worst;
-  for (uint32_t i = 0; i < kTicks; ++i) {
-    const Vec3 at_m = hand.next(touch.closest.point_m);
-    query::Budget budget = kBudget;
-    if (touch.hint.sign > 0) budget.band_m = radius_m + 0.02f * head.diagonal_m;
-    scene::begin_model(model, at_m, i, 10);
-    take_beside(
-        worst, touch,
-        [&](scene::MeshTouch& to) {
-          scene::touch_mesh<>(object, radius_m, at_m, kBudget, to, model);
-        },
-        [&](scene::MeshTouch& to) {
-          to.closest = mesh::closest_point(*object.mesh, at_m, budget, to.hint);
-        });
-  }
-  print_figure("scene/mesh_contact.hpp", worst);
+  constexpr float kRadius_m = 0.003f;
+  query::Budget budget = kBudget;
+  measure<scene::MeshTouch>(
+      "scene/mesh_contact.hpp", head, 7,
+      [&](uint32_t, const scene::MeshTouch& touch) {
+        budget.band_m = touch.hint.sign > 0 ? kRadius_m + 0.02f * head.diagonal_m : kBudget.band_m;
+      },
+      [&](scene::MeshTouch& touch, Vec3 at_m, servo::LocalModel& model) {
+        scene::touch_mesh<>(object, kRadius_m, at_m, kBudget, touch, model);
+      },
+      [&](scene::MeshTouch& touch, Vec3 at_m) {
+        touch.closest = mesh::closest_point(*object.mesh, at_m, budget, touch.hint);
+      });
 }
 
 void measure_spline_contact() {
   scene::SplineObject object;
   object.surface = &asset().spline;
   object.material = {1000, 2};
-  const auto& head = object.surface->head();
-  Hand hand(head.low_m, head.high_m, 8);
-  const float radius_m = 0.003f;
-  scene::SplineTouch touch;
-  servo::LocalModel model;
-  Worst worst;
-  for (uint32_t i = 0; i < kTicks; ++i) {
-    const Vec3 at_m = hand.next(touch.closest.point_m);
-    scene::begin_model(model, at_m, i, 10);
-    take_beside(
-        worst, touch,
-        [&](scene::SplineTouch& to) {
-          scene::touch_spline(object, radius_m, at_m, kBudget, to, model);
-        },
-        [&](scene::SplineTouch& to) {
-          to.closest = spline::closest_point(*object.surface, at_m, kBudget, to.hint);
-        });
-  }
-  print_figure("scene/spline_contact.hpp", worst);
+  measure<scene::SplineTouch>(
+      "scene/spline_contact.hpp", object.surface->head(), 8,
+      [](uint32_t, const scene::SplineTouch&) {},
+      [&](scene::SplineTouch& touch, Vec3 at_m, servo::LocalModel& model) {
+        scene::touch_spline(object, 0.003f, at_m, kBudget, touch, model);
+      },
+      [&](scene::SplineTouch& touch, Vec3 at_m) {
+        touch.closest = spline::closest_point(*object.surface, at_m, kBudget, touch.hint);
+      });
 }
 
 void measure_curve_guide() {
@@ -96,28 +91,22 @@ void measure_curve_guide() {
   guide.tunnel_m = 0.001f * head.diagonal_m;
   guide.arc_penalty = 0.1f;
   guide.free_side = {0, 0, 1};
-  Hand hand(head.low_m, head.high_m, 9);
   const curve::Hold hold{guide.arc_penalty * head.length_m, guide.release_m};
-  scene::CurveGuideTouch touch;
-  servo::LocalModel model;
-  Worst worst;
   constexpr scene::Drive::Kind kKinds[] = {scene::Drive::Kind::kFree, scene::Drive::Kind::kPush,
                                            scene::Drive::Kind::kLead};
-  for (uint32_t i = 0; i < kTicks; ++i) {
-    guide.drive = {kKinds[i / 64 % 3], 1, 0.1f, 0.001f};
-    guide.ends = i / 256 % 2 == 0 ? scene::Ends::kContinue : scene::Ends::kHold;
-    const Vec3 at_m = hand.next(touch.closest.point_m);
-    scene::begin_model(model, at_m, i, 10);
-    take_beside(
-        worst, touch,
-        [&](scene::CurveGuideTouch& to) { scene::follow_curve(guide, at_m, kBudget, to, model); },
-        [&](scene::CurveGuideTouch& to) {
-          to.following.is_following = to.is_held;
-          const auto followed = curve::follow(*guide.curve, at_m, hold, kBudget, to.following);
-          to.closest = followed.closest;
-        });
-  }
-  print_figure("scene/curve_guide.hpp", worst);
+  measure<scene::CurveGuideTouch>(
+      "scene/curve_guide.hpp", head, 9,
+      [&](uint32_t i, const scene::CurveGuideTouch&) {
+        guide.drive = {kKinds[i / 64 % 3], 1, 0.1f, 0.001f};
+        guide.ends = i / 256 % 2 == 0 ? scene::Ends::kContinue : scene::Ends::kHold;
+      },
+      [&](scene::CurveGuideTouch& touch, Vec3 at_m, servo::LocalModel& model) {
+        scene::follow_curve(guide, at_m, kBudget, touch, model);
+      },
+      [&](scene::CurveGuideTouch& touch, Vec3 at_m) {
+        touch.following.is_following = touch.is_held;
+        touch.closest = curve::follow(*guide.curve, at_m, hold, kBudget, touch.following).closest;
+      });
 }
 
 void measure_textures() {
