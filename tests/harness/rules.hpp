@@ -42,4 +42,14 @@ void check_rule(Model& model, uint16_t rule, uint32_t element, const Break& brea
   CHECK_EQ(verdict.element, element);
 }
 
+/// check_rule() of a new model.
+template <class Model>
+struct CheckRule {
+  template <class Break>
+  void operator()(uint16_t rule, uint32_t element, const Break& break_it) const {
+    Model model;
+    check_rule(model, rule, element, break_it);
+  }
+};
+
 }  // namespace firmtouch::test

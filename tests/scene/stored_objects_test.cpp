@@ -33,8 +33,7 @@ struct Scene {
     }
   }
   core::Bytes bytes() const {
-    return {static_cast<const uint8_t*>(static_cast<const void*>(object)),
-            static_cast<uint32_t>(count * sizeof(ObjectLayout))};
+    return test::bytes(object, static_cast<uint32_t>(count * sizeof(ObjectLayout)));
   }
   core::Verdict verdict() const {
     scene::StoredObjects to;
@@ -44,11 +43,7 @@ struct Scene {
   }
 };
 
-template <class Break>
-void check_rule(uint16_t rule, uint32_t element, const Break& break_it) {
-  Scene scene;
-  test::check_rule(scene, rule, element, break_it);
-}
+constexpr test::CheckRule<Scene> check_rule;
 
 }  // namespace
 

@@ -22,20 +22,14 @@ struct Tool {
   }
   core::Verdict verdict() const {
     scene::StoredTool to;
-    const core::Verdict verdict =
-        scene::open({static_cast<const uint8_t*>(static_cast<const void*>(sphere)),
-                     static_cast<uint32_t>(count * sizeof(scene::SphereLayout)) + bytes_more},
-                    to);
+    const uint32_t size = static_cast<uint32_t>(count * sizeof(scene::SphereLayout)) + bytes_more;
+    const core::Verdict verdict = scene::open(test::bytes(sphere, size), to);
     CHECK_EQ(to.size(), verdict.ok() ? count : 0u);
     return verdict;
   }
 };
 
-template <class Break>
-void check_rule(uint16_t rule, uint32_t element, const Break& break_it) {
-  Tool tool;
-  test::check_rule(tool, rule, element, break_it);
-}
+constexpr test::CheckRule<Tool> check_rule;
 
 }  // namespace
 
