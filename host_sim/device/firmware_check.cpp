@@ -113,9 +113,8 @@ FirmwareCheck check_firmware(const LinkageDevice& device, uint32_t poses) {
   carried.carried_share = std::max(device.carried_share, 0.1f);
   const std::vector<uint8_t> stored = tools::stored_bytes_of(carried);
   device::Compensation compensation;
-  if (!open(core::Bytes(stored.data(), static_cast<uint32_t>(stored.size())), linkage, compensation)
-           .ok())
-    return check;
+  const core::Bytes section(stored.data(), static_cast<uint32_t>(stored.size()));
+  if (!compensation.open(section, linkage).ok()) return check;
   Angles angles(device);
   double worst_Nm = 0;
   for (uint32_t tries = 0; check.poses < poses && tries < poses * kTriesAPose; ++tries) {

@@ -283,7 +283,7 @@ TEST(DeratedDevice_ThatDerates_IsNeverStoppedByTheGuard) {
       device::StoredLinkage linkage;
       device::Derating derating;
       CHECK_EQ(open({bytes.data(), sizeof section.linkage}, linkage).rule, 0u);
-      CHECK_EQ(open(bytes, linkage, derating).rule, 0u);
+      CHECK_EQ(derating.open(bytes, linkage).rule, 0u);
       device::HeatState state;
       servo::GuardState guard;
       servo::HeatGuard heat;

@@ -6,14 +6,12 @@
 #include <cstring>
 #include <vector>
 
-#include "device/stored_bar.hpp"
+#include "device/opened_part.hpp"
 #include "firmtouch/device/derating.hpp"
 #include "firmtouch/device/index_pulses.hpp"
-#include "firmtouch/device/rules.hpp"
 #include "firmtouch/device/second_encoders.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/random.hpp"
-#include "harness/test.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 
@@ -34,28 +32,17 @@ Stored bar() {
   return to;
 }
 
-core::Bytes bytes_of(const Stored& stored) {
-  return {reinterpret_cast<const uint8_t*>(&stored), sizeof stored};
-}
+using Opened = device_test::OpenedPart<device::Compensation, Stored>;
 
-core::Verdict opened(const Stored& stored, device::Compensation& to) {
-  const core::Bytes bytes = bytes_of(stored);
-  device::StoredLinkage linkage, none;
-  CHECK_EQ(open(device::before_compensation(bytes), linkage).rule, 0u);
-  CHECK_EQ(open(bytes, none).rule, uint16_t{device::kRuleLinkageSize});
-  const core::Verdict verdict = open(bytes, linkage, to);
-  CHECK(to.is_open() == verdict.ok());
-  return verdict;
+void check_broken(const Stored& stored, uint32_t element) {
+  device_test::check_broken<device::Compensation>(stored, device::kRuleCompensation, element);
 }
 
 void check_broken(uint32_t joint, float spring, float relaxed_rad, uint32_t element) {
   Stored stored = bar();
   stored.compensation.spring_Nm_per_rad[joint] = spring;
   stored.compensation.relaxed_rad[joint] = relaxed_rad;
-  device::Compensation to;
-  const core::Verdict verdict = opened(stored, to);
-  CHECK_EQ(verdict.rule, uint16_t{device::kRuleCompensation});
-  CHECK_EQ(verdict.element, element);
+  check_broken(stored, element);
 }
 
 double wide(float a) { return static_cast<double>(a); }
@@ -64,8 +51,7 @@ double wide(float a) { return static_cast<double>(a); }
 
 TEST(Compensation_EachWordIsBrokenAlone) {
   const float nan = test::nan_value();
-  device::Compensation to;
-  CHECK(opened(bar(), to).ok());
+  CHECK(Opened(bar()).verdict.ok());
   check_broken(0, 0, 1, 0);
   check_broken(0, -0.0f, 0, 0);
   check_broken(0, -0.05f, 1, 0);
@@ -93,20 +79,17 @@ TEST(CarriedFriction_EachWordIsBrokenAlone) {
   for (const bool has_spring : {true, false}) {
     Stored stored = bar();
     if (!has_spring) stored.compensation = {device::kCompensationTag, {}, {}, {}, 0, 0};
-    device::Compensation to;
     for (const auto& broken : kBroken) {
       Stored each = stored;
       each.compensation.friction_Nm[broken.joint] = broken.friction_Nm;
       each.compensation.friction_share = broken.share;
       each.compensation.friction_fade_rad_per_s = broken.fade;
-      const core::Verdict verdict = opened(each, to);
-      CHECK_EQ(verdict.rule, uint16_t{device::kRuleCompensation});
-      CHECK_EQ(verdict.element, broken.element);
+      check_broken(each, broken.element);
     }
     stored.compensation.friction_Nm[1] = .3f;
     stored.compensation.friction_share = .8f;
     stored.compensation.friction_fade_rad_per_s = .1f;
-    CHECK(opened(stored, to).ok());
+    CHECK(Opened(stored).verdict.ok());
   }
 }
 
@@ -118,12 +101,12 @@ TEST(FrictionTorques_AreTheLaw_AndNeverAboveTheirShare) {
     stored.compensation.friction_Nm[1] = random.between(1e-4f, .3f);
     stored.compensation.friction_share = random.between(.01f, .8f);
     stored.compensation.friction_fade_rad_per_s = random.between(.001f, 10);
-    device::Compensation to;
-    CHECK(opened(stored, to).ok());
+    const Opened opened(stored);
+    CHECK(opened.verdict.ok());
     const float size = std::pow(10.0f, random.between(-8, 8));
     const float rate[3] = {size, i % 2 == 0 ? size : -size, size};
     float torque_Nm[3], still_Nm[3];
-    friction_torques_Nm(to, rate, torque_Nm);
+    friction_torques_Nm(opened.part, rate, torque_Nm);
     const device::CompensationLayout& l = stored.compensation;
     const double most_Nm = wide(l.friction_share) * wide(l.friction_Nm[1]);
     const double law_Nm =
@@ -132,7 +115,7 @@ TEST(FrictionTorques_AreTheLaw_AndNeverAboveTheirShare) {
     CHECK_LE(std::fabs(wide(torque_Nm[1])), most_Nm * (1 + 2e-7));
     CHECK(std::fabs(torque_Nm[0]) + std::fabs(torque_Nm[2]) <= 0);
     const float none[3] = {};
-    friction_torques_Nm(to, none, still_Nm);
+    friction_torques_Nm(opened.part, none, still_Nm);
     CHECK(std::fabs(still_Nm[1]) <= 0);
   }
 }
@@ -148,19 +131,18 @@ TEST(Compensation_OfEverySection_IsFoundByItsTag) {
   for (const uint32_t more : before) {
     std::vector<float> words(
         (sizeof(device::LinkageLayout) + more + sizeof(device::CompensationLayout)) / 4, 1.0f);
-    const core::Bytes bytes(reinterpret_cast<const uint8_t*>(words.data()),
-                            static_cast<uint32_t>(4 * words.size()));
-    CHECK_EQ(device::before_compensation(bytes).size(), bytes.size());
+    const core::Bytes bytes = test::bytes(words.data(), static_cast<uint32_t>(4 * words.size()));
+    CHECK_EQ(device::Compensation::before(bytes).size(), bytes.size());
     std::memcpy(&words[words.size() - sizeof(device::CompensationLayout) / 4],
                 &device::kCompensationTag, 4);
-    CHECK_EQ(device::before_compensation(bytes).size(),
+    CHECK_EQ(device::Compensation::before(bytes).size(),
              bytes.size() - sizeof(device::CompensationLayout));
-    CHECK_EQ(device::before_compensation(device::before_compensation(bytes)).size(),
+    CHECK_EQ(device::Compensation::before(device::Compensation::before(bytes)).size(),
              bytes.size() - sizeof(device::CompensationLayout));
   }
   const Stored stored = bar();
   for (uint32_t size = 0; size < sizeof stored; ++size)
-    CHECK_EQ(device::before_compensation({bytes_of(stored).data(), size}).size(), size);
+    CHECK_EQ(device::Compensation::before(test::bytes(&stored, size)).size(), size);
 }
 
 // A program without the part rejects a section with it, whatever it takes its words for.
@@ -175,10 +157,10 @@ TEST(Compensation_ProgramsWithoutIt_RejectIt) {
   both.second.counts_per_rad[1] = 1300;
   both.second.within_rad = 0.005f;
   both.compensation = bar().compensation;
-  const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&both), sizeof both);
+  const core::Bytes bytes = test::bytes(&both, sizeof both);
   device::StoredLinkage linkage;
   device::StoredHoming homing;
-  const core::Bytes homed = device::before_index_pulses(bytes);
+  const core::Bytes homed = device::IndexPulses::before(bytes);
   CHECK_EQ(homed.size(), sizeof(device::HomedLinkageLayout));  // its size alone misleads
   CHECK_EQ(open(homed, linkage, homing).rule, uint16_t{device::kRuleHoming});
 }
@@ -193,9 +175,9 @@ TEST(SpringTorques_AreTheGradientOfTheirEnergy) {
       stored.compensation.spring_Nm_per_rad[k] = random.between(1e-4f, 2);
       stored.compensation.relaxed_rad[k] = random.between(-7, 7);
     }
-    device::Compensation to;
-    CHECK(opened(stored, to).ok());
-    const math::Vec3 torque = spring_torques_Nm(to, angle_rad);
+    const Opened opened(stored);
+    CHECK(opened.verdict.ok());
+    const math::Vec3 torque = spring_torques_Nm(opened.part, angle_rad);
     const float torque_Nm[] = {torque.x, torque.y, torque.z};
     for (int k = 0; k < 2; ++k) {
       const double stiffness = wide(stored.compensation.spring_Nm_per_rad[k]);

@@ -5,11 +5,9 @@
 #include <cfloat>
 #include <cmath>
 
-#include "device/stored_bar.hpp"
-#include "firmtouch/device/rules.hpp"
+#include "device/opened_part.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/random.hpp"
-#include "harness/test.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 
@@ -37,32 +35,11 @@ Stored bar() {
 }
 
 template <class Section = Stored>
-struct Opened {
-  Section stored;
-  device::StoredLinkage linkage;
-  device::Derating derating;
-  core::Verdict verdict;
-
-  explicit Opened(const Section& from) : stored(from) {
-    const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&stored), sizeof stored);
-    const core::Bytes before = device::before_derating(bytes);
-    CHECK_EQ(before.size(), uint32_t{sizeof stored - sizeof stored.derating});
-    CHECK_EQ(device::before_derating(before).size(), before.size());
-    const core::Bytes alone(bytes.data(), sizeof(device::LinkageLayout));
-    CHECK_EQ(open(alone, linkage).rule, 0u);
-    device::StoredLinkage none;
-    CHECK_EQ(open(bytes, none).rule, uint16_t{device::kRuleLinkageSize});
-    verdict = open(bytes, linkage, derating);
-    CHECK(derating.is_open() == verdict.ok());
-  }
-  Opened(const Opened&) = delete;
-};
+using Opened = device_test::OpenedPart<device::Derating, Section>;
 
 template <class Section>
 void check_broken(const Section& stored, uint32_t element) {
-  const Opened<Section> opened(stored);
-  CHECK_EQ(opened.verdict.rule, uint16_t{device::kRuleDerating});
-  CHECK_EQ(opened.verdict.element, element);
+  device_test::check_broken<device::Derating>(stored, device::kRuleDerating, element);
 }
 
 void check_broken(uint32_t joint, float continuous_Nm, float time_s, uint32_t element) {
@@ -85,7 +62,7 @@ struct Motor {
   double heat() const { return wide(state.heat[0]); }
   double limit_Nm() const { return wide(most_Nm[0]); }
   void step(double wanted_Nm, float dt_s = kTick_s) {
-    device::heat(state, opened.derating, opened.linkage, torque_Nm, dt_s, most_Nm);
+    device::heat(state, opened.part, opened.linkage, torque_Nm, dt_s, most_Nm);
     const double size = std::fmin(std::fabs(wanted_Nm), limit_Nm());
     torque_Nm[0] = static_cast<float>(wanted_Nm < 0 ? -size : size);
   }
@@ -142,7 +119,7 @@ TEST(Derating_EveryLengthIsOfOneCompositionOnly) {
     uint32_t before = size;
     for (const uint32_t length : kLengths)
       if (size == length + 24) before = length;
-    CHECK_EQ(device::before_derating({bytes, size}).size(), before);
+    CHECK_EQ(device::Derating::before({bytes, size}).size(), before);
   }
 }
 
@@ -152,7 +129,7 @@ TEST(Derating_ASectionWithoutIt_IsPassedAndNotDerated) {
   device::StoredLinkage linkage;
   device::Derating derating;
   CHECK_EQ(open(alone, linkage).rule, 0u);
-  CHECK_EQ(open(alone, linkage, derating).rule, 0u);
+  CHECK_EQ(derating.open(alone, linkage).rule, 0u);
   CHECK(!derating.is_open());
 }
 

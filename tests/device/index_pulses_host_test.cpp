@@ -48,11 +48,11 @@ struct Opened {
 
   explicit Opened(const Stored& from) : stored(from) {
     const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&stored), sizeof stored);
-    CHECK_EQ(device::before_index_pulses(bytes).size(), uint32_t{sizeof stored.homed});
+    CHECK_EQ(device::IndexPulses::before(bytes).size(), uint32_t{sizeof stored.homed});
     device::StoredLinkage none;
     CHECK_EQ(open(bytes, none).rule, uint16_t{device::kRuleLinkageSize});
-    CHECK_EQ(open(device::before_index_pulses(bytes), linkage, homing).rule, 0u);
-    verdict = open(bytes, linkage, homing, index);
+    CHECK_EQ(open(device::IndexPulses::before(bytes), linkage, homing).rule, 0u);
+    verdict = index.open(bytes, linkage, homing);
     CHECK(index.is_open() == verdict.ok());
     if (!verdict.ok()) return;
     CHECK(settings_of(homing, index).by == device::HomeBy::kIndex);
@@ -210,7 +210,7 @@ TEST(IndexPulses_ASectionWithoutThem_IsPassedAndNotFollowed) {
   device::StoredHoming homing;
   device::IndexPulses index;
   CHECK_EQ(open(alone, linkage, homing).rule, 0u);
-  CHECK_EQ(open(alone, linkage, homing, index).rule, 0u);
+  CHECK_EQ(index.open(alone, linkage, homing).rule, 0u);
   CHECK(!index.is_open() && homing.settings().by == device::HomeBy::kStops);
 }
 

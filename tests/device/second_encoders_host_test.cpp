@@ -4,11 +4,9 @@
 
 #include <cmath>
 
-#include "device/stored_bar.hpp"
-#include "firmtouch/device/rules.hpp"
+#include "device/opened_part.hpp"
 #include "harness/float_bits.hpp"
 #include "harness/random.hpp"
-#include "harness/test.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 
@@ -31,31 +29,13 @@ Stored bar(float first, float second) {
   return to;
 }
 
-struct Opened {
-  Stored stored;
-  device::StoredLinkage linkage;
-  device::SecondEncoders second;
-  core::Verdict verdict;
-
-  explicit Opened(const Stored& from) : stored(from) {
-    const core::Bytes bytes(reinterpret_cast<const uint8_t*>(&stored), sizeof stored);
-    CHECK_EQ(device::before_second_encoders(bytes).size(), uint32_t{sizeof stored.linkage});
-    CHECK_EQ(open(device::before_second_encoders(bytes), linkage).rule, 0u);
-    device::StoredLinkage none;
-    CHECK_EQ(open(bytes, none).rule, uint16_t{device::kRuleLinkageSize});
-    verdict = open(bytes, linkage, second);
-    CHECK(second.is_open() == verdict.ok());
-  }
-  Opened(const Opened&) = delete;
-};
+using Opened = device_test::OpenedPart<device::SecondEncoders, Stored>;
 
 void check_broken(uint32_t element, float first, float second, float within_rad, float third = 0) {
   Stored stored = bar(first, second);
   stored.second.within_rad = within_rad;
   stored.second.counts_per_rad[2] = third;
-  const Opened opened(stored);
-  CHECK_EQ(opened.verdict.rule, uint16_t{device::kRuleSecondEncoder});
-  CHECK_EQ(opened.verdict.element, element);
+  device_test::check_broken<device::SecondEncoders>(stored, device::kRuleSecondEncoder, element);
 }
 
 double wide(float a) { return static_cast<double>(a); }
@@ -87,7 +67,7 @@ TEST(SecondEncoders_ASectionWithoutThem_IsPassedAndNotCompared) {
   device::SecondEncoders second;
   const core::Bytes alone(data, sizeof stored.linkage);
   CHECK_EQ(open(alone, linkage).rule, 0u);
-  CHECK_EQ(open(alone, linkage, second).rule, 0u);
+  CHECK_EQ(second.open(alone, linkage).rule, 0u);
   CHECK(!second.is_open());
 }
 
@@ -129,11 +109,11 @@ TEST(SecondEncoders_AgreeWithinTheToleranceOnly) {
       bool did_agree = true;
       for (int step = 1; step < 100; ++step) {
         const uint32_t counts = seen(.01 * step, none_rad, sample);
-        did_agree &= agree(state, opened.second, opened.linkage, sample, counts);
+        did_agree &= agree(state, opened.part, opened.linkage, sample, counts);
       }
       CHECK(did_agree);
       const uint32_t counts = seen(1, off_rad, sample);
-      const bool do_agree = agree(state, opened.second, opened.linkage, sample, counts);
+      const bool do_agree = agree(state, opened.part, opened.linkage, sample, counts);
       const double off = (off_rad[0] < 0 ? -off_rad[0] : off_rad[0]) * size;
       const double most = within_rad * size;
       const bool must_agree = off < most - 3 - ratio;
@@ -156,6 +136,6 @@ TEST(SecondEncoders_EveryCountGivesAnAnswer) {
     device::SecondState state;
     align(state, sample, random.bits());
     sample.counts[0] = INT32_MIN;
-    (void)agree(state, proven.second, proven.linkage, sample, static_cast<uint32_t>(i));
+    (void)agree(state, proven.part, proven.linkage, sample, static_cast<uint32_t>(i));
   }
 }

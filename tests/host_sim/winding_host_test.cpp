@@ -82,8 +82,8 @@ TEST(Winding_DeratedTorque_KeepsTheRatedRise_AndTheWholeOneDoesNot) {
   const core::Bytes section(stored.data(), static_cast<uint32_t>(stored.size()));
   device::StoredLinkage linkage;
   device::Derating derating;
-  CHECK(open(device::before_derating(section), linkage).ok());
-  CHECK(open(section, linkage, derating).ok());
+  CHECK(open(device::Derating::before(section), linkage).ok());
+  CHECK(derating.open(section, linkage).ok());
   test::Lcg random(5);
   for (const bool is_derated : {true, false}) {
     device::HeatState state;

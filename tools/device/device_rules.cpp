@@ -254,14 +254,14 @@ core::Verdict check_stored(core::Bytes section) {
   device::SecondEncoders second;
   device::Derating derating;
   device::Compensation compensation;
-  const core::Bytes unsprung = device::before_compensation(section);
-  const core::Bytes cold = device::before_derating(unsprung);
-  const core::Bytes homed = device::before_index_pulses(cold);
-  core::Verdict verdict = open(device::before_second_encoders(homed), linkage, homing);
-  if (verdict.ok() && homing.is_open()) verdict = open(cold, linkage, homing, index);
-  if (verdict.ok()) verdict = open(cold, linkage, second);
-  if (verdict.ok()) verdict = open(unsprung, linkage, derating);
-  return verdict.ok() ? open(section, linkage, compensation) : verdict;
+  const core::Bytes unsprung = device::Compensation::before(section);
+  const core::Bytes cold = device::Derating::before(unsprung);
+  const core::Bytes homed = device::IndexPulses::before(cold);
+  core::Verdict verdict = open(device::SecondEncoders::before(homed), linkage, homing);
+  if (verdict.ok() && homing.is_open()) verdict = index.open(cold, linkage, homing);
+  if (verdict.ok()) verdict = second.open(cold, linkage);
+  if (verdict.ok()) verdict = derating.open(unsprung, linkage);
+  return verdict.ok() ? compensation.open(section, linkage) : verdict;
 }
 
 void complete_and_check(const std::string& name, const GivenKeys& given, LinkageDevice& device) {

@@ -9,9 +9,8 @@ namespace firmtouch {
 /// weight less the springs' torques, and a share of the friction, within the same share of their
 /// limits.
 template <class Base>
-class CompensatedDevice
-    : public DeviceWithPart<Base, device::Compensation, NoState, device::before_compensation> {
-  using Parted = DeviceWithPart<Base, device::Compensation, NoState, device::before_compensation>;
+class CompensatedDevice : public DeviceWithPart<Base, device::Compensation, NoState> {
+  using Parted = DeviceWithPart<Base, device::Compensation, NoState>;
 
  public:
   bool push(const params::Values& values, Push push, servo::GuardState& guard,

@@ -9,9 +9,8 @@ namespace firmtouch {
 /// home anew does not. Weight and homing are within the limits, too. The guard counts the heat by
 /// its own means.
 template <class Base>
-class DeratedDevice
-    : public DeviceWithPart<Base, device::Derating, device::HeatState, device::before_derating> {
-  using Parted = DeviceWithPart<Base, device::Derating, device::HeatState, device::before_derating>;
+class DeratedDevice : public DeviceWithPart<Base, device::Derating, device::HeatState> {
+  using Parted = DeviceWithPart<Base, device::Derating, device::HeatState>;
 
  public:
   template <class Trust>

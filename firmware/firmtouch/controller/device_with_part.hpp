@@ -6,9 +6,9 @@ namespace firmtouch {
 /// The state of a part without one.
 struct NoState {};
 
-/// A device, and a part that the asset may store behind what `Base` reads of its section; kBefore
-/// cuts it off. `PartState` is what ticks leave of it, anew after reset().
-template <class Base, class Part, class PartState, core::Bytes (*kBefore)(core::Bytes)>
+/// A device, and a part that the asset may store behind what `Base` reads of its section.
+/// `PartState` is what ticks leave of it, anew after reset().
+template <class Base, class Part, class PartState>
 class DeviceWithPart : public Base {
  public:
   void close() {
@@ -18,7 +18,7 @@ class DeviceWithPart : public Base {
   template <class Trust>
   asset::Progress work(typename Base::State& state, uint32_t units) {
     return this->template work_by<Trust>(
-        state, units, [this](core::Bytes section) { return open(section, this->linkage_, part_); });
+        state, units, [this](core::Bytes section) { return part_.open(section, this->linkage_); });
   }
 
   void reset() {
@@ -35,7 +35,7 @@ class DeviceWithPart : public Base {
   template <class Trust, class Open>
   asset::Progress work_by(typename Base::State& state, uint32_t units, const Open& open) {
     const core::Bytes whole = this->section_;
-    this->section_ = kBefore(whole);
+    this->section_ = Part::before(whole);
     asset::Progress progress = Base::template work<Trust>(state, units);
     this->section_ = whole;
     if (progress.verdict.ok()) progress.verdict = open(whole);

@@ -9,15 +9,14 @@ namespace firmtouch {
 /// file). They make homing exact. Once it is homed, a pulse at another count is an encoder fault in
 /// its tick, and none where one is due in the third tick. It lasts until reset(), or until the
 /// linkage is homed anew.
-class IndexedDevice : public DeviceWithPart<HomedDevice, device::IndexPulses, device::IndexState,
-                                            device::before_index_pulses> {
+class IndexedDevice : public DeviceWithPart<HomedDevice, device::IndexPulses, device::IndexState> {
  public:
   static constexpr bool kComparesEncoders = true, kHasIndexPulses = true;
 
   template <class Trust>
   asset::Progress work(State& state, uint32_t units) {
     return work_by<Trust>(state, units, [this](core::Bytes section) {
-      return homing_.is_open() ? device::open(section, linkage_, homing_, part_) : core::kPassed;
+      return homing_.is_open() ? part_.open(section, linkage_, homing_) : core::kPassed;
     });
   }
 

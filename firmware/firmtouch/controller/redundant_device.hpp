@@ -10,8 +10,7 @@ namespace firmtouch {
 /// the first sample on, or from the end of homing. What differs goes on being rejected until
 /// reset(), or until a linkage that is homed is homed anew.
 template <class Base>
-class RedundantDevice : public DeviceWithPart<Base, device::SecondEncoders, device::SecondState,
-                                              device::before_second_encoders> {
+class RedundantDevice : public DeviceWithPart<Base, device::SecondEncoders, device::SecondState> {
  public:
   static constexpr bool kComparesEncoders = true, kHasSecondEncoders = true;
 

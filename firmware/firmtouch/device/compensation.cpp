@@ -33,7 +33,8 @@ bool check_friction(const CompensationLayout& of, const StoredLinkage& linkage,
 
 }  // namespace
 
-core::Bytes before_compensation(core::Bytes section) {
+template <>
+core::Bytes Compensation::before(core::Bytes section) {
   if (section.size() < sizeof(LinkageLayout) + sizeof(CompensationLayout)) return section;
   const uint32_t before = section.size() - uint32_t{sizeof(CompensationLayout)};
   uint32_t tag;
@@ -41,12 +42,13 @@ core::Bytes before_compensation(core::Bytes section) {
   return tag == kCompensationTag ? core::Bytes{section.data(), before} : section;
 }
 
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensation& to) {
-  to.layout_ = nullptr;
-  const uint32_t before = before_compensation(section).size();
-  if (before == section.size()) return core::kPassed;
-  const CompensationLayout& compensation = core::as_array<CompensationLayout>(
-      {section.data() + before, sizeof(CompensationLayout)}, 1)[0];
+template <>
+core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linkage) {
+  layout_ = nullptr;
+  const uint32_t rest = before(section).size();
+  if (rest == section.size()) return core::kPassed;
+  const CompensationLayout& compensation =
+      core::as_array<CompensationLayout>({section.data() + rest, sizeof(CompensationLayout)}, 1)[0];
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     const float spring = compensation.spring_Nm_per_rad[k], relaxed = compensation.relaxed_rad[k];
@@ -61,7 +63,7 @@ core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensati
   has_one |= check_friction(compensation, linkage, verdict);
   if (!verdict.ok()) return verdict;
   if (!has_one) return reject(kRuleCompensation, 3 * kMaxJoints + 1);
-  to.layout_ = &compensation;
+  layout_ = &compensation;
   return core::kPassed;
 }
 

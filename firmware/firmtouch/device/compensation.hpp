@@ -1,23 +1,16 @@
 #pragma once
-#include "firmtouch/core/span.hpp"
 #include "firmtouch/device/stored_linkage.hpp"
 
 // What else than weight a linkage's motors carry: springs that balance it, and friction.
 namespace firmtouch::device {
 
-/// As an asset stores them, behind all else of the linkage.
-class Compensation : public StoredPart<CompensationLayout> {
-  friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensation& to);
-};
-
-/// What is before the compensation in a section of type kLinkageSection. Its tag is beyond the
-/// range of every other word of such a section.
-core::Bytes before_compensation(core::Bytes section);
-
-/// Proves the compensation of a section of type kLinkageSection. `to` is open only where the
-/// section has one and the verdict is passed. The bytes must outlive it. Pre: linkage.is_open(), of
-/// this section. Bounds: constant.
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Compensation& to);
+/// As an asset stores them, behind all else of the linkage. The tag is beyond the range of every
+/// other word of a section.
+using Compensation = FurtherPart<CompensationLayout>;
+template <>
+core::Bytes Compensation::before(core::Bytes section);
+template <>
+core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linkage);
 
 /// Torques of the springs on the joints: stiffness x (relaxed angle - angle).
 /// Pre: compensation.is_open(). Bounds: constant. Result: finite for angles within 200 rad.

@@ -23,21 +23,23 @@ bool is_before(uint32_t size) {
 
 }  // namespace
 
-core::Bytes before_derating(core::Bytes section) {
+template <>
+core::Bytes Derating::before(core::Bytes section) {
   const uint32_t before = section.size() - uint32_t{sizeof(DeratingLayout)};  // may wrap
   return is_before(before) ? core::Bytes{section.data(), before} : section;
 }
 
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Derating& to) {
-  to.layout_ = nullptr;
-  const uint32_t before = before_derating(section).size();
-  if (before == section.size()) return core::kPassed;
+template <>
+core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage) {
+  layout_ = nullptr;
+  const uint32_t rest = before(section).size();
+  if (rest == section.size()) return core::kPassed;
   const DeratingLayout& derating =
-      core::as_array<DeratingLayout>({section.data() + before, sizeof(DeratingLayout)}, 1)[0];
+      core::as_array<DeratingLayout>({section.data() + rest, sizeof(DeratingLayout)}, 1)[0];
   // Homing measures by its torque, so it must have it.
   const HomingLayout* homing = nullptr;
-  if (before >= sizeof(HomedLinkageLayout))
-    homing = &core::as_array<HomedLinkageLayout>({section.data(), before}, 1)[0].homing;
+  if (rest >= sizeof(HomedLinkageLayout))
+    homing = &core::as_array<HomedLinkageLayout>({section.data(), rest}, 1)[0].homing;
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     const float continuous_Nm = derating.continuous_Nm[k], time_s = derating.time_s[k];
@@ -52,7 +54,7 @@ core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Derating& 
     has_one = true;
   }
   if (!has_one) return reject(kRuleDerating, 2 * kMaxJoints);
-  to.layout_ = &derating;
+  layout_ = &derating;
   return core::kPassed;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/core/span.hpp"
 #include "firmtouch/device/stored_linkage.hpp"
 
 // Thermal limits of a linkage's motors by I squared t: torque is proportional to current, so the
@@ -9,17 +8,11 @@
 namespace firmtouch::device {
 
 /// As an asset stores them, behind all else of the linkage.
-class Derating : public StoredPart<DeratingLayout> {
-  friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Derating& to);
-};
-
-/// What is before the thermal limits in a section of type kLinkageSection.
-core::Bytes before_derating(core::Bytes section);
-
-/// Proves the thermal limits of a section of type kLinkageSection. `to` is open only where it has
-/// them and the verdict is passed. The bytes must outlive it. Pre: linkage.is_open(), of this
-/// section. Bounds: constant.
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, Derating& to);
+using Derating = FurtherPart<DeratingLayout>;
+template <>
+core::Bytes Derating::before(core::Bytes section);
+template <>
+core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage);
 
 /// Heat x of each winding in units of its continuous torque's square: x' = (torque^2 - x) / T.
 /// Initially that of the continuous torque: a motor may be hot after a reset.

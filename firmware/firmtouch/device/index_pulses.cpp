@@ -71,19 +71,21 @@ int32_t interval_at(const JointIndex& index, int32_t pulse, int32_t now, int32_t
 
 }  // namespace
 
-core::Bytes before_index_pulses(core::Bytes section) {
+template <>
+core::Bytes IndexPulses::before(core::Bytes section) {
   constexpr uint32_t kHomed = sizeof(HomedLinkageLayout);
   return section.size() == kHomed + sizeof(IndexLayout) ? core::Bytes{section.data(), kHomed}
                                                         : section;
 }
 
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const StoredHoming& homing,
-                   IndexPulses& to) {
-  to.layout_ = nullptr;
-  const uint32_t before = before_index_pulses(section).size();
-  if (before == section.size()) return core::kPassed;
+template <>
+core::Verdict IndexPulses::open(core::Bytes section, const StoredLinkage& linkage,
+                                const StoredHoming& homing) {
+  layout_ = nullptr;
+  const uint32_t rest = before(section).size();
+  if (rest == section.size()) return core::kPassed;
   const IndexLayout& layout =
-      core::as_array<IndexLayout>({section.data() + before, section.size() - before}, 1)[0];
+      core::as_array<IndexLayout>({section.data() + rest, sizeof(IndexLayout)}, 1)[0];
   if (homing.layout().by != static_cast<uint32_t>(HomeBy::kStops)) return reject(kRuleIndex);
   IndexPulses found;
   found.layout_ = &layout;
@@ -100,7 +102,7 @@ core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Stor
   }
   if (!check_homing(settings_of(homing, found), linkage.joints({Estimator::kDifference, 1})))
     return reject(kRuleIndex, 1 + 2 * kMaxJoints);
-  to = found;
+  layout_ = &layout;
   return core::kPassed;
 }
 

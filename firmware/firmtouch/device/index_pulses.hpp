@@ -1,7 +1,6 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/core/span.hpp"
 #include "firmtouch/device/stored_homing.hpp"
 #include "firmtouch/device/stored_linkage.hpp"
 
@@ -10,19 +9,12 @@
 namespace firmtouch::device {
 
 /// As an asset stores them, behind the linkage and its homing.
-class IndexPulses : public StoredPart<IndexLayout> {
-  friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage,
-                            const StoredHoming& homing, IndexPulses& to);
-};
-
-/// What is before the index pulses in a section of type kLinkageSection.
-core::Bytes before_index_pulses(core::Bytes section);
-
-/// Proves the index pulses of a section of type kLinkageSection. `to` is open only where it has
-/// them and the verdict is passed. The bytes must outlive it. Pre: linkage and homing are open, of
-/// this section. Bounds: constant.
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const StoredHoming& homing,
-                   IndexPulses& to);
+using IndexPulses = FurtherPart<IndexLayout, StoredHoming>;
+template <>
+core::Bytes IndexPulses::before(core::Bytes section);
+template <>
+core::Verdict IndexPulses::open(core::Bytes section, const StoredLinkage& linkage,
+                                const StoredHoming& homing);
 
 /// Homing by them. Pre: both are open.
 HomingSettings settings_of(const StoredHoming& homing, const IndexPulses& index);

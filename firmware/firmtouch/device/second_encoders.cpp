@@ -29,19 +29,21 @@ float ratio_of(const SecondEncodersLayout& second, const LinkageLayout& linkage,
 
 }  // namespace
 
-core::Bytes before_second_encoders(core::Bytes section) {
+template <>
+core::Bytes SecondEncoders::before(core::Bytes section) {
   constexpr uint32_t kSecond = sizeof(SecondEncodersLayout);
   const bool has_second = section.size() == sizeof(LinkageLayout) + kSecond ||
                           section.size() == sizeof(HomedLinkageLayout) + kSecond;
   return has_second ? core::Bytes{section.data(), section.size() - kSecond} : section;
 }
 
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to) {
-  to.layout_ = nullptr;
-  const uint32_t before = before_second_encoders(section).size();
-  if (before == section.size()) return core::kPassed;
+template <>
+core::Verdict SecondEncoders::open(core::Bytes section, const StoredLinkage& linkage) {
+  layout_ = nullptr;
+  const uint32_t rest = before(section).size();
+  if (rest == section.size()) return core::kPassed;
   const SecondEncodersLayout& second = core::as_array<SecondEncodersLayout>(
-      {section.data() + before, section.size() - before}, 1)[0];
+      {section.data() + rest, sizeof(SecondEncodersLayout)}, 1)[0];
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     if (is_zero(second.counts_per_rad[k])) continue;
@@ -55,7 +57,7 @@ core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEnco
     has_one = true;
   }
   if (!has_one) return reject(kRuleSecondEncoder, 2 * kMaxJoints);
-  to.layout_ = &second;
+  layout_ = &second;
   return core::kPassed;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/core/span.hpp"
 #include "firmtouch/device/stored_linkage.hpp"
 
 // Second encoders of a linkage's joints, compared with the first ones in each tick: an encoder that
@@ -9,17 +8,11 @@
 namespace firmtouch::device {
 
 /// As an asset stores them, behind the linkage and its homing.
-class SecondEncoders : public StoredPart<SecondEncodersLayout> {
-  friend core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to);
-};
-
-/// What is before the second encoders in a section of type kLinkageSection.
-core::Bytes before_second_encoders(core::Bytes section);
-
-/// Proves the second encoders of a section of type kLinkageSection. `to` is open only where it has
-/// them and the verdict is passed. The bytes must outlive it. Pre: linkage.is_open(), of this
-/// section. Bounds: constant.
-core::Verdict open(core::Bytes section, const StoredLinkage& linkage, SecondEncoders& to);
+using SecondEncoders = FurtherPart<SecondEncodersLayout>;
+template <>
+core::Bytes SecondEncoders::before(core::Bytes section);
+template <>
+core::Verdict SecondEncoders::open(core::Bytes section, const StoredLinkage& linkage);
 
 /// What the first encoder of each joint counted where both are taken to agree, and how far the
 /// second has turned since.

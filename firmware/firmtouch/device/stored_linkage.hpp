@@ -1,5 +1,6 @@
 #pragma once
 #include "firmtouch/core/span.hpp"
+#include "firmtouch/core/status.hpp"
 #include "firmtouch/device/layout.hpp"
 #include "firmtouch/device/load.hpp"
 
@@ -31,6 +32,18 @@ class StoredLinkage : public StoredPart<LinkageLayout> {
 
  private:
   friend core::Verdict open(core::Bytes section, StoredLinkage& to);
+};
+
+/// A part that a section may have behind the linkage. Proving it takes what else is `Needed`.
+template <class Layout, class... Needed>
+class FurtherPart : public StoredPart<Layout> {
+ public:
+  /// What is before it in a section of type kLinkageSection.
+  static core::Bytes before(core::Bytes section);
+
+  /// Proves it. It is open only where the section has it and the verdict is passed. The bytes must
+  /// outlive it. Pre: `linkage` and `needed` are open, of this section. Bounds: constant.
+  core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Needed&... needed);
 };
 
 /// Proves a section of type kLinkageSection; `to` is open where the verdict is passed. The bytes

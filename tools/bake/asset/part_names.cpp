@@ -15,10 +15,10 @@ std::vector<std::string> needed_part_names(const asset::Container& asset) {
     if ((parts >> number & 1u) != 0) names.emplace_back(part_name(number));
   for (uint32_t i = 0; i < asset.section_count(); ++i) {
     if (asset.type(i) != device::kLinkageSection) continue;
-    const core::Bytes whole = asset.section(i), unsprung = device::before_compensation(whole);
-    const core::Bytes cold = device::before_derating(unsprung);
-    const core::Bytes homed = device::before_index_pulses(cold);
-    const core::Bytes first = device::before_second_encoders(homed);
+    const core::Bytes whole = asset.section(i), unsprung = device::Compensation::before(whole);
+    const core::Bytes cold = device::Derating::before(unsprung);
+    const core::Bytes homed = device::IndexPulses::before(cold);
+    const core::Bytes first = device::SecondEncoders::before(homed);
     if (first.size() == sizeof(device::HomedLinkageLayout)) names.emplace_back("homing");
     if (homed.size() < cold.size()) names.emplace_back("index_pulses");
     if (first.size() < homed.size()) names.emplace_back("second_encoders");
