@@ -51,11 +51,9 @@ using Stage = query::StageOf<Proof>;
 
 // CRCs are continued by pieces of a multiple of the alignment.
 const query::CheckStage Proof::kStages[3] = {
-    {8, Stage::count<&Proof::table_pieces>, Stage::all<&Proof::check_table>,
-     Stage::finish<&Proof::finish_table>},
-    {10, Stage::count<&Proof::entry_count>, Stage::each<&Proof::check_entry>,
-     Stage::finish<&Proof::finish_entries>},
-    {10, Stage::count<&Proof::pieces_and_sections>, Stage::all<&Proof::check_sections>}};
+    Stage::of<&Proof::table_pieces, &Proof::check_table, &Proof::finish_table>(8),
+    Stage::of<&Proof::entry_count, &Proof::check_entry, &Proof::finish_entries>(10),
+    Stage::of<&Proof::pieces_and_sections, &Proof::check_sections>(10)};
 
 Verdict Proof::take(core::Bytes file) {
   if (reinterpret_cast<uintptr_t>(file.data()) % kAlignment != 0) return reject(kRuleAlignment);

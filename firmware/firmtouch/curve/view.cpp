@@ -54,14 +54,12 @@ using Stage = query::StageOf<Proof>;
 }  // namespace
 
 const query::CheckStage Proof::kStages[6] = {
-    {1, Stage::count<&Proof::sample_count>, Stage::all<&Proof::check_samples>,
-     Stage::finish<&Proof::finish_samples>},
-    {3, Stage::count<&Proof::sample_count>, Stage::each<&Proof::check_length>,
-     Stage::finish<&Proof::finish_lengths>},
-    {8, Stage::count<&Proof::tree_count>, Stage::all<&Proof::check_tree>},
-    {1, Stage::count<&Proof::box_count>, Stage::all<&Proof::check_boxes>},
-    {1, Stage::count<&Proof::run_count>, Stage::all<&Proof::check_runs>},
-    {50, Stage::count<&Proof::part_count>, Stage::each<&Proof::check_part>}};
+    Stage::of<&Proof::sample_count, &Proof::check_samples, &Proof::finish_samples>(1),
+    Stage::of<&Proof::sample_count, &Proof::check_length, &Proof::finish_lengths>(3),
+    Stage::of<&Proof::tree_count, &Proof::check_tree>(8),
+    Stage::of<&Proof::box_count, &Proof::check_boxes>(1),
+    Stage::of<&Proof::run_count, &Proof::check_runs>(1),
+    Stage::of<&Proof::part_count, &Proof::check_part>(50)};
 
 Verdict Proof::take(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);

@@ -21,7 +21,7 @@ using Stage = query::StageOf<Proof>;
 // A query from a right seed takes some thousand instructions; from a wrong one it may take all that
 // a query of the mesh can.
 const query::CheckStage Proof::kStages[1] = {
-    {700, Stage::count<&Proof::cell_count>, Stage::each<&Proof::check_cell>}};
+    Stage::of<&Proof::cell_count, &Proof::check_cell>(700)};
 
 Verdict Proof::take(const Sections& s, const mesh::View& mesh) {
   mesh_ = &mesh;

@@ -45,16 +45,12 @@ using Stage = query::StageOf<Proof>;
 }  // namespace
 
 const query::CheckStage Proof::kStages[6] = {
-    {1, Stage::count<&Proof::vertex_count>, Stage::all<&Proof::check_mesh_vertices>},
-    {2, Stage::count<&Proof::id_count>, Stage::all<&Proof::check_ids>,
-     Stage::finish<&Proof::finish_ids>},
-    {80, Stage::count<&Proof::record_count>, Stage::each<&Proof::check_record>,
-     Stage::finish<&Proof::finish_records>},
-    {15, Stage::count<&Proof::leaf_count>, Stage::all<&Proof::check_leaves>,
-     Stage::finish<&Proof::finish_leaves>},
-    {5, Stage::count<&Proof::base_vertex_count>, Stage::each<&Proof::check_base_vertex>},
-    {80, Stage::count<&Proof::base_face_count>, Stage::each<&Proof::check_base_face>,
-     Stage::finish<&Proof::finish_base_hull>}};
+    Stage::of<&Proof::vertex_count, &Proof::check_mesh_vertices>(1),
+    Stage::of<&Proof::id_count, &Proof::check_ids, &Proof::finish_ids>(2),
+    Stage::of<&Proof::record_count, &Proof::check_record, &Proof::finish_records>(80),
+    Stage::of<&Proof::leaf_count, &Proof::check_leaves, &Proof::finish_leaves>(15),
+    Stage::of<&Proof::base_vertex_count, &Proof::check_base_vertex>(5),
+    Stage::of<&Proof::base_face_count, &Proof::check_base_face, &Proof::finish_base_hull>(80)};
 
 Verdict Proof::take_mesh(const Sections& s) {
   const core::Span<const mesh::Head> heads = core::as_whole_array<mesh::Head>(s.mesh_head);

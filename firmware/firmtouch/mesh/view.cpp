@@ -85,13 +85,10 @@ using Stage = query::StageOf<Proof>;
 }  // namespace
 
 const query::CheckStage Proof::kStages[4] = {
-    {1, Stage::count<&Proof::vertex_count>, Stage::all<&Proof::check_vertices>,
-     Stage::finish<&Proof::finish_vertices>},
-    {1, Stage::count<&Proof::fold_words>, Stage::all<&Proof::check_folds>,
-     Stage::finish<&Proof::finish_folds>},
-    {25, Stage::count<&Proof::plain_node_count>, Stage::all<&Proof::check_nodes>},
-    {50, Stage::count<&Proof::other_node_count>, Stage::all<&Proof::check_nodes>,
-     Stage::finish<&Proof::finish_nodes>}};
+    Stage::of<&Proof::vertex_count, &Proof::check_vertices, &Proof::finish_vertices>(1),
+    Stage::of<&Proof::fold_words, &Proof::check_folds, &Proof::finish_folds>(1),
+    Stage::of<&Proof::plain_node_count, &Proof::check_nodes>(25),
+    Stage::of<&Proof::other_node_count, &Proof::check_nodes, &Proof::finish_nodes>(50)};
 
 Verdict Proof::check_head() {
   const Head& head = view.head();

@@ -17,23 +17,34 @@ struct CheckStage {
 
 /// Members of a proof as functions of a CheckStage, so that all proofs share one StagedCheck.
 template <class Proof>
-struct StageOf {
-  template <uint32_t (Proof::*kCount)() const>
+class StageOf {
+  using Count = uint32_t (Proof::*)() const;
+  using Finish = core::Verdict (Proof::*)();
+
+ public:
+  /// kCheck takes an element, or the first and the end.
+  template <Count kCount, auto kCheck, Finish... kFinish>
+  static constexpr CheckStage of(uint32_t units) {
+    return {units, count<kCount>, check<kCheck>, finish<kFinish>...};
+  }
+
+ private:
+  template <Count kCount>
   static uint32_t count(const void* proof) {
     return (static_cast<const Proof*>(proof)->*kCount)();
   }
   template <core::Verdict (Proof::*kCheck)(uint32_t)>
-  static core::Verdict each(void* proof, uint32_t first, uint32_t end) {
+  static core::Verdict check(void* proof, uint32_t first, uint32_t end) {
     core::Verdict found;
     for (uint32_t i = first; i < end && found.ok(); ++i)
       found = (static_cast<Proof*>(proof)->*kCheck)(i);
     return found;
   }
   template <core::Verdict (Proof::*kCheck)(uint32_t, uint32_t)>
-  static core::Verdict all(void* proof, uint32_t first, uint32_t end) {
+  static core::Verdict check(void* proof, uint32_t first, uint32_t end) {
     return (static_cast<Proof*>(proof)->*kCheck)(first, end);
   }
-  template <core::Verdict (Proof::*kFinish)()>
+  template <Finish kFinish>
   static core::Verdict finish(void* proof) {
     return (static_cast<Proof*>(proof)->*kFinish)();
   }

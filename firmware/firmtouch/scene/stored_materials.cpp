@@ -51,14 +51,14 @@ Cut StoredMaterials::cut_of(uint32_t material, math::Vec3 x_m) const {
   return cut;
 }
 
-using Of = query::StageOf<MaterialsProof>;
+using Stage = query::StageOf<MaterialsProof>;
 
 // A name may be compared with 254 others; a map may have 4,096 samples.
 const query::CheckStage MaterialsProof::kStages[4] = {
-    {350, Of::count<&MaterialsProof::material_count>, Of::each<&MaterialsProof::check_material>},
-    {2, Of::count<&MaterialsProof::texture_count>, Of::each<&MaterialsProof::check_texture>},
-    {1700, Of::count<&MaterialsProof::relief_count>, Of::each<&MaterialsProof::check_relief>},
-    {1, Of::count<&MaterialsProof::slice_count>, Of::each<&MaterialsProof::check_slice>}};
+    Stage::of<&MaterialsProof::material_count, &MaterialsProof::check_material>(350),
+    Stage::of<&MaterialsProof::texture_count, &MaterialsProof::check_texture>(2),
+    Stage::of<&MaterialsProof::relief_count, &MaterialsProof::check_relief>(1700),
+    Stage::of<&MaterialsProof::slice_count, &MaterialsProof::check_slice>(1)};
 
 Verdict MaterialsProof::take(const MaterialSections& sections, const mesh::View& mesh) {
   const auto table = core::as_whole_array<MaterialLayout>(sections.table);

@@ -21,7 +21,7 @@ using Stage = query::StageOf<GuideProof>;
 
 // By three points of a piece, or by many for the first part of one.
 const query::CheckStage GuideProof::kStages[1] = {
-    {100, Stage::count<&GuideProof::interval_count>, Stage::each<&GuideProof::check_interval>}};
+    Stage::of<&GuideProof::interval_count, &GuideProof::check_interval>(100)};
 
 Verdict GuideProof::take(const View& model, const GuideSections& sections) {
   view.arcs_ = core::as_whole_array<float>(sections.arcs);

@@ -48,13 +48,11 @@ using Stage = query::StageOf<Proof>;
 }  // namespace
 
 const query::CheckStage Proof::kStages[5] = {
-    {80, Stage::count<&Proof::piece_count>, Stage::each<&Proof::check_piece>,
-     Stage::finish<&Proof::finish_pieces>},
-    {2, Stage::count<&Proof::point_count>, Stage::each<&Proof::check_point>},
-    {2, Stage::count<&Proof::node_count>, Stage::each<&Proof::check_node>},
-    {500, Stage::count<&Proof::cell_count>, Stage::each<&Proof::check_cell>,
-     Stage::finish<&Proof::finish_cells>},
-    {600, Stage::count<&Proof::leaf_count>, Stage::each<&Proof::check_leaf>}};
+    Stage::of<&Proof::piece_count, &Proof::check_piece, &Proof::finish_pieces>(80),
+    Stage::of<&Proof::point_count, &Proof::check_point>(2),
+    Stage::of<&Proof::node_count, &Proof::check_node>(2),
+    Stage::of<&Proof::cell_count, &Proof::check_cell, &Proof::finish_cells>(500),
+    Stage::of<&Proof::leaf_count, &Proof::check_leaf>(600)};
 
 Verdict Proof::take(const Sections& s) {
   const core::Span<const Head> heads = core::as_whole_array<Head>(s.head);
