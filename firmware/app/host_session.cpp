@@ -98,6 +98,18 @@ void HostSession::handle(const link::Frame& frame) {
   }
 }
 
+// Result: false, with a complaint, where the message is not due or of another length.
+template <class Message>
+bool HostSession::take(const link::Frame& frame, bool is_due, Message& to) {
+  const bool is_taken = is_due && link::take(frame, to);
+  if (!is_taken) complain(frame, is_due ? kOtherLength : kTooEarly);
+  return is_taken;
+}
+
+void HostSession::acknowledge(const link::Frame& frame, uint32_t index, uint32_t result) {
+  outbox_.send(link::kAck, frame.sequence, link::bytes_of(link::Ack{index, result}));
+}
+
 void HostSession::answer_hello(const link::Frame& frame) {
   link::Hello hello;
   link::HelloReply reply = describe();
@@ -151,8 +163,7 @@ uint32_t HostSession::reasons_to_refuse(const link::Hello& hello,
 
 void HostSession::answer_step(const link::Frame& frame) {
   link::Step step;
-  if (!is_lock_step()) return complain(frame, kTooEarly);
-  if (!link::take(frame, step)) return complain(frame, kOtherLength);
+  if (!take(frame, is_lock_step(), step)) return;
   // The same step again: its reply was lost. The tick is not repeated.
   if (!has_stepped_ || step.input.tick != last_reply_.tick) {
     const uint32_t before = hal::clock_work();
@@ -170,72 +181,58 @@ void HostSession::answer_step(const link::Frame& frame) {
 
 void HostSession::answer_set_param(const link::Frame& frame) {
   link::SetParam wanted;
-  if (phase_ == Phase::kStranger) return complain(frame, kTooEarly);
-  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
-  link::Ack ack;
-  ack.index = wanted.index;
+  if (!take(frame, phase_ != Phase::kStranger, wanted)) return;
+  uint32_t result = link::kAckTaken;
   if (is_lock_step()) {
-    ack.result = link::kAckInLockStep;
+    result = link::kAckInLockStep;
   } else if (wanted.index >= controller.kTable.size()) {
-    ack.result = link::kAckNoSuchParameter;
+    result = link::kAckNoSuchParameter;
   } else {
     const params::Entry& row = controller.kTable[wanted.index];
     if (!(wanted.value >= row.low) || !(wanted.value <= row.high)) {
-      ack.result = link::kAckOutOfRange;
+      result = link::kAckOutOfRange;
     } else if (!commands.put(wanted.index, wanted.value)) {
-      ack.result = link::kAckBusy;
+      result = link::kAckBusy;
     }
   }
-  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+  acknowledge(frame, wanted.index, result);
 }
 
 void HostSession::answer_clear_faults(const link::Frame& frame) {
   link::ClearFaults wanted;
-  if (phase_ == Phase::kStranger) return complain(frame, kTooEarly);
-  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
-  link::Ack ack;
-  ack.index = link::kAckOfClearFaults;
+  if (!take(frame, phase_ != Phase::kStranger, wanted)) return;
+  uint32_t result = link::kAckTaken;
   if (is_lock_step()) {
-    ack.result = link::kAckInLockStep;
+    result = link::kAckInLockStep;
   } else if (!commands.put_clear_faults()) {
-    ack.result = link::kAckBusy;
+    result = link::kAckBusy;
   }
-  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+  acknowledge(frame, link::kAckOfClearFaults, result);
 }
 
 void HostSession::answer_save(const link::Frame& frame) {
   link::SaveParameters wanted;
-  if (phase_ == Phase::kStranger) return complain(frame, kTooEarly);
-  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
-  link::Ack ack;
-  ack.index = link::kAckOfSave;
-  ack.result = is_lock_step() ? link::kAckInLockStep : save_parameters();
-  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+  if (!take(frame, phase_ != Phase::kStranger, wanted)) return;
+  acknowledge(frame, link::kAckOfSave, is_lock_step() ? link::kAckInLockStep : save_parameters());
 }
 
 void HostSession::answer_panel(const link::Frame& frame) {
   link::Panel panel;
-  if (!is_live()) return complain(frame, kTooEarly);
-  if (!link::take(frame, panel)) return complain(frame, kOtherLength);
+  if (!take(frame, is_live(), panel)) return;
   set_panel(panel.flags);
-  link::Ack ack;
-  ack.index = link::kAckOfPanel;
-  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+  acknowledge(frame, link::kAckOfPanel);
 }
 
 void HostSession::answer_stream(const link::Frame& frame) {
   link::Stream wanted;
-  if (!is_live()) return complain(frame, kTooEarly);
-  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
+  if (!take(frame, is_live(), wanted)) return;
   decimation_ = wanted.decimation;
-  link::Ack ack;
-  ack.index = link::kAckOfStream;
-  outbox_.send(link::kAck, frame.sequence, link::bytes_of(ack));
+  acknowledge(frame, link::kAckOfStream);
 }
 
 void HostSession::answer_describe(const link::Frame& frame) {
   link::Describe wanted;
-  if (!link::take(frame, wanted)) return complain(frame, kOtherLength);
+  if (!take(frame, true, wanted)) return;
   const link::Description row = describe_row(wanted);
   outbox_.send(link::kDescription, frame.sequence, link::bytes_of(row));
 }
@@ -259,7 +256,7 @@ bool HostSession::answer_optional(const link::Frame& frame) {
 
 void HostSession::leave(const link::Frame& frame) {
   link::Bye bye;
-  if (!link::take(frame, bye)) return complain(frame, kOtherLength);
+  if (!take(frame, true, bye)) return;
   phase_ = Phase::kStranger;
   if (bye.what != link::kByeExit) return;
   if (!hal::board_may_exit()) return complain(frame, ": this board does not exit");

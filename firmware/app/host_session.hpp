@@ -36,6 +36,9 @@ class HostSession {
   bool answer_optional(const link::Frame& frame);
   void leave(const link::Frame& frame);
   void stream_records();
+  template <class Message>
+  bool take(const link::Frame& frame, bool is_due, Message& to);
+  void acknowledge(const link::Frame& frame, uint32_t index, uint32_t result = link::kAckTaken);
   void complain(const link::Frame& frame, const char* text);
 
   link::Decoder decoder_;
