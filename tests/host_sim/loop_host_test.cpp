@@ -18,17 +18,11 @@
 #include "log/memory_sink.hpp"
 #include "log/writer.hpp"
 
-namespace host_sim = firmtouch::host_sim;
-namespace record = firmtouch::record;
-namespace servo = firmtouch::servo;
-using firmtouch::test::loop_scenario;
-using firmtouch::test::part_asset;
-using firmtouch::test::scratch;
-using host_sim::Difference;
-using host_sim::Log;
-using host_sim::Session;
-using host_sim::tick_of;
-using host_sim::Trace;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace host_sim;   // NOLINT
+using test::loop_scenario;
+using test::part_asset;
+using test::scratch;
 
 namespace {
 
@@ -115,7 +109,6 @@ TEST(Replay_ReproducesEveryBit) {
 
 // A log as a version without `field` wrote it.
 std::string write_without(const std::string& field, const std::vector<record::TickRecord>& all) {
-  namespace log = firmtouch::log;
   log::Header header = host_sim::tick_header();
   const log::Field* found = header.find(field);
   CHECK(found != nullptr);

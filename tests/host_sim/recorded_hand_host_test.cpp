@@ -12,17 +12,11 @@
 #include "host_sim/part_asset.hpp"
 #include "host_sim/trace/log.hpp"
 
-namespace host_sim = firmtouch::host_sim;
-namespace record = firmtouch::record;
-using firmtouch::test::loop_scenario;
-using firmtouch::test::part_asset;
-using firmtouch::test::scratch;
-using host_sim::HandSample;
-using host_sim::Log;
-using host_sim::norm;
-using host_sim::Scenario;
-using host_sim::Trace;
-using host_sim::Vec;
+using namespace firmtouch;  // NOLINT: a test file
+using namespace host_sim;   // NOLINT
+using test::loop_scenario;
+using test::part_asset;
+using test::scratch;
 
 namespace {
 

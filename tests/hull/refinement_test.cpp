@@ -62,6 +62,14 @@ Segment through() {
   const Vec3 twice{aim.x * 2, aim.y * 2, aim.z * 2};
   return {a, {twice.x - a.x, twice.y - a.y, twice.z - a.z}};
 }
+template <class Check>
+void each_segment(uint32_t seed, uint32_t count, const Check& check) {
+  g_random = seed;
+  for (uint32_t i = 0; i < count; ++i) {
+    test::note("segment", i);
+    check(i, through());
+  }
+}
 
 // Of a triangle's corners in their turn, whichever comes first; summed, an order does not matter.
 uint64_t mark(const uint32_t (&corner)[3]) {
@@ -107,25 +115,22 @@ TEST(AnyClosureLeavesAHullOfTheRightSize) {
 TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
   Refined<kMax, 64> opened;
   hull::Refinement& refinement = opened.refinement;
-  g_random = 7;
   uint32_t hits = 0, splits = 0;
-  for (uint32_t i = 0; i < 400; ++i) {
-    test::note("segment", i);
-    const Segment s = through();
+  each_segment(7, 400, [&](uint32_t, const Segment& s) {
     const mesh::Hit truth = hull::cast_segment(opened.view, s.a, s.b, query::kUnlimited);
     const hull::RefinedHit hit = refinement.first(s.a, s.b, query::kUnlimited);
     CHECK(hit.exact);
     CHECK_EQ(hit.hit, truth.hit);
     CHECK_EQ(refinement.any(s.a, s.b, query::kUnlimited).hit, truth.hit);
     CHECK_EQ(refinement.splits().size(), 0u);
-    if (!truth.hit) continue;
+    if (!truth.hit) return;
     ++hits;
     splits += hit.splits;
     CHECK(hit.is_of_mesh);
     CHECK_EQ(bits_of(hit.t), bits_of(truth.t));
     CHECK_EQ(hit.triangle, truth.triangle);
     CHECK_EQ(hit.enters, truth.enters);
-  }
+  });
   CHECK(hits > 100);
   CHECK(splits > hits);
 }
@@ -133,10 +138,7 @@ TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
 TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
   Refined<kMax, 4> opened;
   hull::Refinement& refinement = opened.refinement;
-  g_random = 9;
-  for (uint32_t i = 0; i < 400; ++i) {
-    test::note("segment", i);
-    const Segment s = through();
+  each_segment(9, 400, [&](uint32_t, const Segment& s) {
     mesh::SurfaceCrossing truth[16], reported[16];
     const mesh::Crossings all =
         hull::all_crossings(opened.view, s.a, s.b, query::kUnlimited, {truth});
@@ -144,7 +146,7 @@ TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
     CHECK(found.exact);
     CHECK(found.found <= all.found);
     CHECK_EQ(found.found == 0, all.found == 0);
-    if (all.found == 0 || found.found == 0) continue;
+    if (all.found == 0 || found.found == 0) return;
     CHECK_EQ(reported[0].triangle, truth[0].triangle);
     CHECK_EQ(reported[found.reported - 1].triangle, truth[all.reported - 1].triangle);
     uint32_t at = 0;
@@ -152,18 +154,15 @@ TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
       while (at < all.reported && truth[at].triangle != reported[k].triangle) ++at;
       CHECK(at < all.reported);
     }
-  }
+  });
 }
 
 // Half a closure is no hull: one that does not fit is taken back, and the hull's crossing reported.
 TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
   Refined<12, 3> opened;
   hull::Refinement& refinement = opened.refinement;
-  g_random = 11;
   uint32_t conservative = 0, exact = 0;
-  for (uint32_t i = 0; i < 600; ++i) {
-    test::note("segment", i);
-    const Segment s = through();
+  each_segment(11, 600, [&](uint32_t i, const Segment& s) {
     const query::Budget budget{i % 2 == 0 ? UINT32_MAX : 1 + i % 40};
     const mesh::Hit truth = hull::cast_segment(opened.view, s.a, s.b, query::kUnlimited);
     const hull::RefinedHit hit = refinement.first(s.a, s.b, budget);
@@ -177,7 +176,7 @@ TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
     } else {
       ++conservative;
     }
-  }
+  });
   CHECK(conservative > 50);
   CHECK(exact > 50);
 }

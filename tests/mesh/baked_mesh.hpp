@@ -6,6 +6,7 @@
 #include "brute_force.hpp"
 #include "firmtouch/mesh/view.hpp"
 #include "harness/test.hpp"
+#include "surface/make/make_part.hpp"
 
 namespace firmtouch::mesh_test {
 
@@ -38,5 +39,11 @@ struct BakedMesh {
     return options;
   }
 };
+
+/// The demo's part.
+inline const BakedMesh& part() {
+  static const BakedMesh baked(tools::make_part(1, 5000));
+  return baked;
+}
 
 }  // namespace firmtouch::mesh_test

@@ -6,18 +6,12 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "harness/test.hpp"
 #include "surface/make/make_cad.hpp"
-#include "surface/make/make_part.hpp"
 
 namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
-
-const BakedMesh& part() {
-  static const BakedMesh baked(tools::make_part(1, 2000));
-  return baked;
-}
 
 void check_band(const mesh::Closest& c, const Truth& truth, double size, double band_m) {
   const double reported = std::fabs(double{c.distance_m}), scale = std::max(size, truth.distance);

@@ -19,11 +19,6 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
 
-const BakedMesh& part() {
-  static const BakedMesh baked(tools::make_part(1, 5000));
-  return baked;
-}
-
 // On two threads: brute force is what takes the time.
 std::vector<Truth> truths(const tools::Surface& surface, const std::vector<Vec3>& queries) {
   const BruteForce brute_force(surface);

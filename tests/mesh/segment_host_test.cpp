@@ -100,11 +100,6 @@ void no_leaks(const BakedMesh& baked, size_t segments, uint64_t seed) {
   CHECK_EQ(leaks, size_t{0});
 }
 
-const BakedMesh& part() {
-  static const BakedMesh baked(tools::make_part(1, 5000));
-  return baked;
-}
-
 void no_leaks_in_real_model(const char* file, size_t daily, size_t whole) {
   if (models_folder().empty()) return test::skip("FIRMTOUCH_MODELS names no folder of real models");
   const BakedMesh baked(real_model(file));
