@@ -15,20 +15,26 @@ void set_guide(const ModelRequest& request, const params::Values& values, uint32
                scene::Guide& guide);
 void report_guide(const scene::GuideTouch& touch, ModelResult& result);
 
-/// A guide policy: a sampled curve.
-class CurveGuide : public curve::Loader {
+/// What guide policies share.
+template <class Loader, class Touch, uint32_t kPart>
+class GuideWith : public Loader {
  public:
   using Parameters = params::Groups<params::GuideRows>;
   static constexpr bool kIsGuide = true;
-  static constexpr uint32_t kParts = kPartGuide;
+  static constexpr uint32_t kParts = kPart;
 
-  const curve::View& curve() const { return view(); }
-  bool is_open() const { return curve().is_open(); }
+  bool is_open() const { return this->view().is_open(); }
   void reset() { touch_ = {}; }
-  void follow(const ModelRequest& request, const params::Values& values, ModelResult& result);
 
- private:
-  scene::CurveGuideTouch touch_;
+ protected:
+  Touch touch_;
+};
+
+/// A guide policy: a sampled curve.
+class CurveGuide : public GuideWith<curve::Loader, scene::CurveGuideTouch, kPartGuide> {
+ public:
+  const curve::View& curve() const { return view(); }
+  void follow(const ModelRequest& request, const params::Values& values, ModelResult& result);
 };
 
 }  // namespace firmtouch

@@ -10,14 +10,15 @@ using SurfacesWithObjects = Surfaces<MeshObjects, Mesh, SplineSurface>;
 
 /// Every part of the library, several objects (part `objects`), and materials of triangles (part
 /// `materials`). The same parameters, and the same bits for an asset without either.
-class ObjectsController : public EveryPart<OneScene, HomedDevice, FullMaterialMesh,
-                                           SurfacesWithObjects<FullMaterialMesh>> {
+template <class Device, class SurfaceList>
+class WithObjects : public EveryPart<OneScene, Device, FullMaterialMesh, SurfaceList> {
  public:
   const scene::StoredMaterials& materials() const {
-    return surface<FullMaterialMesh>().materials();
+    return this->template surface<FullMaterialMesh>().materials();
   }
-  const MeshObjects& objects() const { return surface<MeshObjects>(); }
+  const MeshObjects& objects() const { return this->template surface<MeshObjects>(); }
 };
+using ObjectsController = WithObjects<HomedDevice, SurfacesWithObjects<FullMaterialMesh>>;
 
 /// With room for the next asset.
 using SwappingObjectsController =

@@ -1,6 +1,4 @@
 #pragma once
-#include <stdint.h>
-
 #include "firmtouch/controller/curve_guide.hpp"
 #include "firmtouch/scene/spline_guide.hpp"
 #include "firmtouch/spline/guide/loader.hpp"
@@ -8,19 +6,11 @@
 namespace firmtouch {
 
 /// A guide policy: spline curves.
-class SplineGuide : public spline::GuideLoader {
+class SplineGuide
+    : public GuideWith<spline::GuideLoader, scene::SplineGuideTouch, kPartSplineGuide> {
  public:
-  using Parameters = params::Groups<params::GuideRows>;
-  static constexpr bool kIsGuide = true;
-  static constexpr uint32_t kParts = kPartSplineGuide;
-
   const spline::GuideView& guide() const { return view(); }
-  bool is_open() const { return guide().is_open(); }
-  void reset() { touch_ = {}; }
   void follow(const ModelRequest& request, const params::Values& values, ModelResult& result);
-
- private:
-  scene::SplineGuideTouch touch_;
 };
 
 }  // namespace firmtouch

@@ -14,13 +14,8 @@ using EveryDevice = CompensatedDevice<DeratedDevice<RedundantDevice<IndexedDevic
 /// spheres (part `tool`), index pulses, second encoders, thermal limits and balancing springs
 /// (parts `index_pulses`, `second_encoders`, `derating`, `compensation`). The same parameters, and
 /// the same bits for an asset without any of these. What the simulator runs.
-class ToolController : public EveryPart<OneScene, EveryDevice, FullMaterialMesh,
-                                        SurfacesWithTool<FullMaterialMesh>> {
+class ToolController : public WithObjects<EveryDevice, SurfacesWithTool<FullMaterialMesh>> {
  public:
-  const scene::StoredMaterials& materials() const {
-    return surface<FullMaterialMesh>().materials();
-  }
-  const MeshObjects& objects() const { return surface<MeshObjects>(); }
   const MeshTool& tool() const { return surface<MeshTool>(); }
   /// That the tool or its one sphere touches.
   const mesh::View& mesh() const { return tool().is_open() ? tool().mesh() : EveryPart::mesh(); }
