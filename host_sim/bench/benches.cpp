@@ -2,14 +2,13 @@
 
 namespace firmtouch::host_sim {
 
-const std::vector<bench::Bench>& rig_benches() {
-  static const std::vector<bench::Bench> all = {
+std::vector<bench::Bench> rig_benches() {
+  return {
       {"feel", "contact with walls, corners, grooves, slots, plates; penalty contact beside it",
        run_contact_bench},
       {"friction", "friction: force ratio, creep, stick-slip", run_friction_bench},
       {"passivity", "energy that contact gives to the hand", run_passivity_bench},
   };
-  return all;
 }
 
 }  // namespace firmtouch::host_sim

@@ -10,6 +10,6 @@ namespace firmtouch::host_sim {
 // definition.
 bench::Run run_contact_bench, run_moving_bench, run_friction_bench, run_passivity_bench;
 
-const std::vector<bench::Bench>& rig_benches();
+std::vector<bench::Bench> rig_benches();
 
 }  // namespace firmtouch::host_sim

@@ -27,6 +27,6 @@ struct Bench {
 };
 
 /// Every bench there is, in the order of the list in benches.cpp.
-const std::vector<Bench>& benches();
+std::vector<Bench> benches();
 
 }  // namespace firmtouch::bench

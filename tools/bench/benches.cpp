@@ -3,8 +3,8 @@
 
 namespace firmtouch::bench {
 
-const std::vector<Bench>& benches() {
-  static const std::vector<Bench> all = {
+std::vector<Bench> benches() {
+  return {
       {"distance", "closest points of meshes: time, budgets, bytes", run_distance},
       {"certificates", "bounds of meshes under short budgets", run_certificates},
       {"truth", "distances and signs against brute force in double", run_truth},
@@ -17,7 +17,6 @@ const std::vector<Bench>& benches() {
       {"ring", "records from thread to thread: the lock-free ring, a locked deque", run_ring},
       {"velocity", "velocity estimators on encoder counts: errors", run_velocity},
   };
-  return all;
 }
 
 }  // namespace firmtouch::bench

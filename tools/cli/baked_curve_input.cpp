@@ -28,15 +28,14 @@ tools::StepFigures steps_of(const curve::View& view, const std::vector<math::Vec
 
 tools::Facts facts_of(const curve::View& view, const tools::CurveReport& report,
                       const tools::StepFigures& steps) {
-  return {{"kind", view.is_closed() ? "closed curve" : "open curve"},
-          {"pieces", view.is_smooth() ? "cubic" : "straight"},
-          {"samples", std::to_string(report.samples)},
-          {"levels", std::to_string(report.levels)},
-          {"length_m", tools::number_text(static_cast<double>(view.head().length_m))},
-          {"steps_random_mean", tools::number_text(steps.random_mean)},
-          {"steps_random_worst", std::to_string(steps.random_worst)},
-          {"steps_path_mean", tools::number_text(steps.path_mean)},
-          {"steps_path_worst", std::to_string(steps.path_worst)}};
+  tools::Facts facts = {
+      {"kind", view.is_closed() ? "closed curve" : "open curve"},
+      {"pieces", view.is_smooth() ? "cubic" : "straight"},
+      {"samples", std::to_string(report.samples)},
+      {"levels", std::to_string(report.levels)},
+      {"length_m", tools::number_text(static_cast<double>(view.head().length_m))}};
+  add_steps(steps, facts);
+  return facts;
 }
 
 // What the parameters workspace_half_x_m, _y_m and _z_m are where nobody sets them.

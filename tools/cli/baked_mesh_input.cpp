@@ -36,16 +36,15 @@ tools::StepFigures steps_of(const mesh::View& view, const tools::Surface& surfac
 }
 
 tools::Facts facts_of(const mesh::View& view, const tools::StepFigures& steps) {
-  return {{"kind", view.is_signed() ? "mesh" : "mesh without inside and outside"},
-          {"triangles", std::to_string(view.head().triangle_count)},
-          {"vertices", std::to_string(view.head().vertex_count)},
-          {"nodes", std::to_string(view.head().node_count)},
-          {"depth", std::to_string(view.head().depth)},
-          {"diagonal_m", tools::number_text(static_cast<double>(view.head().diagonal_m))},
-          {"steps_random_mean", tools::number_text(steps.random_mean)},
-          {"steps_random_worst", std::to_string(steps.random_worst)},
-          {"steps_path_mean", tools::number_text(steps.path_mean)},
-          {"steps_path_worst", std::to_string(steps.path_worst)}};
+  tools::Facts facts = {
+      {"kind", view.is_signed() ? "mesh" : "mesh without inside and outside"},
+      {"triangles", std::to_string(view.head().triangle_count)},
+      {"vertices", std::to_string(view.head().vertex_count)},
+      {"nodes", std::to_string(view.head().node_count)},
+      {"depth", std::to_string(view.head().depth)},
+      {"diagonal_m", tools::number_text(static_cast<double>(view.head().diagonal_m))}};
+  add_steps(steps, facts);
+  return facts;
 }
 
 std::string sentence(const char* format, double a, double b) {

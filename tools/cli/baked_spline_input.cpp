@@ -71,13 +71,10 @@ tools::Facts facts_of(const tools::SplineReport& report, const tools::StepFigure
                         {"levels", std::to_string(report.levels)},
                         {"extent_m", tools::number_text(report.extent_m)},
                         {"loss_m", tools::number_text(report.loss_m)},
-                        {"deviation_m", tools::number_text(report.deviation_m)},
-                        {"steps_random_mean", tools::number_text(steps.random_mean)},
-                        {"steps_random_worst", std::to_string(steps.random_worst)},
-                        {"steps_path_mean", tools::number_text(steps.path_mean)},
-                        {"steps_path_worst", std::to_string(steps.path_worst)},
-                        {"steps_worst_found", std::to_string(worst.steps)},
-                        {"evaluations_worst_found", std::to_string(worst.evaluations)}};
+                        {"deviation_m", tools::number_text(report.deviation_m)}};
+  add_steps(steps, facts);
+  facts.push_back({"steps_worst_found", std::to_string(worst.steps)});
+  facts.push_back({"evaluations_worst_found", std::to_string(worst.evaluations)});
   if (guide.is_guide) {
     facts.push_back({"length_m", tools::number_text(guide.length_m)});
     facts.push_back({"chains", std::to_string(guide.chains)});

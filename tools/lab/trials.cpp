@@ -2,8 +2,8 @@
 
 namespace firmtouch::lab {
 
-const std::vector<Bench>& trials() {
-  static const std::vector<Bench> all = {
+std::vector<Bench> trials() {
+  return {
       {"orders", "query orders, upper bounds and kinds of boxes, each with each", run_orders},
       {"pseudonormals", "the sign by every pseudonormal proposed, on figures and models",
        run_pseudonormals},
@@ -21,7 +21,6 @@ const std::vector<Bench>& trials() {
       {"cells", "planar splines: cells that list what may be nearest, against the tree", run_cells},
       {"pictures", "the papers' figures as SVG (--figures FOLDER)", run_pictures},
   };
-  return all;
 }
 
 }  // namespace firmtouch::lab

@@ -6,7 +6,7 @@ namespace firmtouch::lab {
 using namespace bench;  // NOLINT: the lab is built on the benches' models, timing and report
 
 /// Every trial there is: tables and figures of the papers, and designs that lost (JOURNAL.md).
-const std::vector<Bench>& trials();
+std::vector<Bench> trials();
 
 // The trials, one a file of that name; what each prints stands above its definition.
 using Run = void(const Options& options, Report& report);

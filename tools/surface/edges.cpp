@@ -2,7 +2,32 @@
 
 #include <algorithm>
 
+#include "surface/point.hpp"
+
 namespace firmtouch::tools {
+namespace {
+
+template <class Take>
+void each_length_m(const Surface& surface, const Take& take) {
+  for (const Face& face : surface.faces)
+    for (size_t k = 0; k < 3; ++k)
+      take(length(to_point(surface.vertices[face[(k + 1) % 3]]) -
+                  to_point(surface.vertices[face[k]])));
+}
+
+}  // namespace
+
+double mean_edge_m(const Surface& surface) {
+  double sum_m = 0;
+  each_length_m(surface, [&](double edge_m) { sum_m += edge_m; });
+  return sum_m / (3 * static_cast<double>(surface.faces.size()));
+}
+
+double longest_edge_m(const Surface& surface) {
+  double longest_m = 0;
+  each_length_m(surface, [&](double edge_m) { longest_m = std::max(longest_m, edge_m); });
+  return longest_m;
+}
 
 Edges::Edges(const std::vector<Face>& faces) {
   struct Key {

@@ -15,6 +15,10 @@ inline uint32_t end_of(const std::vector<Face>& faces, uint32_t h) {
   return start_of(faces, next_half(h));
 }
 
+/// Of the edges of all faces. Pre of the mean: there is a face.
+double mean_edge_m(const Surface& surface);
+double longest_edge_m(const Surface& surface);
+
 /// The edges of a mesh: every half-edge sorted by its two vertices, so that those of one edge are
 /// neighbours.
 class Edges {

@@ -62,4 +62,11 @@ std::vector<math::Vec3> path_along(const std::vector<math::Vec3>& polyline_m, fl
   return path;
 }
 
+void add_steps(const StepFigures& steps, Facts& facts) {
+  facts.push_back({"steps_random_mean", number_text(steps.random_mean)});
+  facts.push_back({"steps_random_worst", std::to_string(steps.random_worst)});
+  facts.push_back({"steps_path_mean", number_text(steps.path_mean)});
+  facts.push_back({"steps_path_worst", std::to_string(steps.path_worst)});
+}
+
 }  // namespace firmtouch::tools

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "bake/asset/provenance.hpp"
 #include "firmtouch/math/vec3.hpp"
 
 namespace firmtouch::tools {
@@ -22,6 +23,8 @@ struct StepFigures {
 StepFigures measure_steps(const float (&low_m)[3], const float (&high_m)[3],
                           const std::vector<math::Vec3>& path_m,
                           const std::function<uint32_t(math::Vec3, bool)>& steps_of);
+
+void add_steps(const StepFigures& steps, Facts& facts);
 
 /// A path along a polyline, beside it by 0.5 % of `diagonal_m`: what a guided hand does.
 std::vector<math::Vec3> path_along(const std::vector<math::Vec3>& polyline_m, float diagonal_m);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "surface/edges.hpp"
+
 namespace firmtouch::tools {
 namespace {
 
@@ -50,18 +52,6 @@ constexpr double kLeafMarginEdges = 0.5;
 // What reaching a leaf costs the controller beside 1 for a face of it.
 constexpr double kLeafCost = 0.53;
 
-double mean_edge(const Surface& surface) {
-  double sum = 0;
-  for (const auto& face : surface.faces)
-    for (size_t k = 0; k < 3; ++k) {
-      const std::array<double, 3> a = coordinates(surface.vertices[face[k]]),
-                                  b = coordinates(surface.vertices[face[(k + 1) % 3]]);
-      sum += std::sqrt((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) +
-                       (b[2] - a[2]) * (b[2] - a[2]));
-    }
-  return sum / (3.0 * static_cast<double>(surface.faces.size()));
-}
-
 // Grid coordinates of a box, rounded outward; 1/128 cell more than the rounding that the firmware's
 // check allows.
 void store_box(const Box& box, const Grid& grid, uint32_t* words) {
@@ -81,7 +71,7 @@ class Builder {
       : boxes_(face_boxes(surface)),
         grid_(grid),
         shape_(shape),
-        mean_edge_(mean_edge(surface)),
+        mean_edge_(mean_edge_m(surface)),
         margin_(kMarginEdges * mean_edge_) {
     for (size_t axis = 0; axis < 3; ++axis) {
       std::vector<std::pair<double, uint32_t>> centres;  // twice as far from the origin

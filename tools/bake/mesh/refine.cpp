@@ -31,17 +31,6 @@ constexpr double kRefinedEdge = 0.05;
 constexpr uint32_t kMinRefinedFaces = 256;
 constexpr double kLongEdge = 0.08;
 
-double longest_edge_m(const Surface& surface) {
-  double longest2 = 0;
-  for (const Face& face : surface.faces)
-    for (size_t k = 0; k < 3; ++k) {
-      const Point edge =
-          to_point(surface.vertices[face[(k + 1) % 3]]) - to_point(surface.vertices[face[k]]);
-      longest2 = std::max(longest2, dot(edge, edge));
-    }
-  return std::sqrt(longest2);
-}
-
 class Refiner {
  public:
   Refiner(Surface& surface, double max_move_m, double max_growth, const Frame& boxes)

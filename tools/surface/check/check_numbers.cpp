@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "surface/check/mending.hpp"
+#include "surface/edges.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::tools {
@@ -72,14 +73,7 @@ void refuse_bad_size(const Surface& surface, CheckReport& report) {
                              "): choose another --unit or scale it");
     return;
   }
-  double edges_m = 0;
-  for (const Face& face : surface.faces) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      edges_m += length(to_point(surface.vertices[face[k]]) -
-                        to_point(surface.vertices[face[(k + 1) % 3]]));
-    }
-  }
-  const double mean_m = edges_m / (3 * static_cast<double>(surface.faces.size()));
+  const double mean_m = mean_edge_m(surface);
   const double reach_m = std::max({-low.x, -low.y, -low.z, high.x, high.y, high.z});
   if (!(reach_m * 0x1p-24 <= kRoundingOfEdge * mean_m)) {
     report.refused.push_back("lies " + metres(reach_m) + " from the origin with a size of " +
