@@ -20,9 +20,7 @@
 
 using namespace firmtouch;  // NOLINT: a test file
 using namespace host_sim;   // NOLINT
-using test::loop_scenario;
-using test::part_asset;
-using test::scratch;
+using namespace test;       // NOLINT
 
 namespace {
 
