@@ -1,6 +1,4 @@
 #pragma once
-#include <stdint.h>
-
 #include "composition.hpp"
 #include "firmtouch/link/command_mailbox.hpp"
 #include "firmtouch/record/tick_ring.hpp"

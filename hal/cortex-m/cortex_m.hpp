@@ -15,7 +15,6 @@ inline volatile uint16_t& reg16(uint32_t address) {
 constexpr uint32_t kSysTickControl = 0xE000E010;  // b0 enable, b1 interrupt, b2 processor clock
 constexpr uint32_t kSysTickReload = 0xE000E014;   // 24 bits
 constexpr uint32_t kSysTickValue = 0xE000E018;
-constexpr uint32_t kNvicLines = 0xE000E004;   // words of kNvicEnable, less one
 constexpr uint32_t kNvicEnable = 0xE000E100;  // one bit an interrupt
 constexpr uint32_t kNvicDisable = 0xE000E180;
 constexpr uint32_t kNvicPend = 0xE000E200;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "firmtouch/controller/full_controller.hpp"
 #include "firmtouch/scene/mesh_touched.hpp"

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <mutex>
 
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"

@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <iostream>
 
 #include "firmtouch/params/table.hpp"
 #include "host_sim/commands/commands.hpp"

@@ -1,8 +1,6 @@
 #include "host_sim/report/image.hpp"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include "firmtouch/core/crc32.hpp"
 #include "host_sim/report/deflate.hpp"

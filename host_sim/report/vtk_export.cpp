@@ -1,6 +1,5 @@
 #include "host_sim/report/vtk_export.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <vector>
 

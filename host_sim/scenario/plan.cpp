@@ -1,7 +1,6 @@
 #include "host_sim/scenario/plan.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "device/line_reader.hpp"

@@ -2,7 +2,6 @@
 // replay of the record sets them too.
 #include <unistd.h>
 
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 

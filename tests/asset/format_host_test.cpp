@@ -1,6 +1,5 @@
 // tools/FORMAT.md lists every reject rule of the firmware once, and no other. Where a layout header
 // has an `enum Rule`, number, name and text agree too.
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>

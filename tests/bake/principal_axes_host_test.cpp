@@ -1,7 +1,6 @@
 // The axes of oriented boxes, checked against the eigenvectors of another library.
 #include "bake/tree/principal_axes.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "harness/test.hpp"

@@ -1,7 +1,6 @@
 // A controller whose asset has a distance field of its mesh.
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "controller/ride.hpp"
 #include "firmtouch/field/layout.hpp"

@@ -1,7 +1,5 @@
 // A controller whose asset carries a hull of its mesh, with too little time for the mesh.
-#include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "controller/ride.hpp"
 #include "firmtouch/hull/layout.hpp"

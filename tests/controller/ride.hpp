@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
-#include <limits>
-#include <memory>
 #include <string>
 #include <vector>
 

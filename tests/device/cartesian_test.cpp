@@ -1,7 +1,6 @@
 // Encoders: quantum, wrap, jumps, lost samples, velocity; everything that a count can be.
 #include "firmtouch/device/cartesian.hpp"
 
-#include <float.h>
 #include <stdint.h>
 
 #include "firmtouch/math/isa.hpp"

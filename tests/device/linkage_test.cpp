@@ -2,7 +2,6 @@
 // name, and the same bits everywhere.
 #include "firmtouch/device/linkage.hpp"
 
-#include <float.h>
 #include <stdint.h>
 
 #include "firmtouch/core/hash.hpp"

@@ -1,7 +1,6 @@
 // Velocity estimators: steady motion, flicker, stops, and everything that a count can be.
 #include "firmtouch/device/velocity.hpp"
 
-#include <float.h>
 #include <stdint.h>
 
 #include "harness/test.hpp"

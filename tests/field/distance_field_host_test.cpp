@@ -145,27 +145,6 @@ TEST(SeveralObjects_DistanceOfTheNearest_InsideOfAny) {
   CHECK(second > 100);
 }
 
-TEST(ListOfPoints_InAnyOrder_EqualsBruteForce) {
-  const std::vector<Surface> surfaces{make_part(4, 1200), moved(make_part(5, 1200), {0.05f, 0, 0})};
-  std::vector<Solid> solids(surfaces.begin(), surfaces.end());
-  Random random(7);
-  std::vector<Point> points;
-  for (int i = 0; i < 1500; ++i)
-    points.push_back(
-        {random.between(-0.2, 0.2), random.between(-0.2, 0.2), random.between(-0.2, 0.2)});
-  const std::vector<Nearest> found = nearest_to_points(solids, points, 2);
-  size_t wrong = 0;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const double truth =
-        std::min(oracle_distance(surfaces[0], points[i]), oracle_distance(surfaces[1], points[i]));
-    const bool inside = winding_by_angles(surfaces[0], points[i]) > 0.5 ||
-                        winding_by_angles(surfaces[1], points[i]) > 0.5;
-    if (std::fabs(reported(found[i]) - truth) > 1e-6 * std::max(0.2, truth)) ++wrong;
-    if (inside != (found[i].sign < 0)) ++wrong;
-  }
-  CHECK_EQ(wrong, 0u);
-}
-
 TEST(Field_AnyScaleAndPosition_SameRelativeError) {
   for (const float scale : {1e-3f, 1.0f, 1e3f}) {
     Surface surface = moved(cube({0, 0, 0}, 1), {300, -200, 100});

@@ -3,7 +3,6 @@
 // triangle.
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "surface/point.hpp"
 #include "surface/surface.hpp"

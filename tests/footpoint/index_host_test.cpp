@@ -1,7 +1,6 @@
 // Morse theory as an oracle of completeness: over a surface like a disc minima - saddles + maxima,
 // with the border's foot-points and the corners from which the distance grows inwards, add up to
 // one.
-#include <cmath>
 
 #include "footpoint/footpoints.hpp"
 #include "harness/test.hpp"

@@ -1,7 +1,6 @@
 // An asset with every section type, damaged by a flipped bit, a truncation or a special word. With
 // the old CRCs it is always rejected. With repaired CRCs a numbered rule rejects it, or every
 // answer stays in range, finite and within its budget.
-#include <cstdlib>
 #include <cstring>
 #include <set>
 

@@ -1,6 +1,5 @@
 #include "fuzz/victim.hpp"
 
-#include <cmath>
 #include <string>
 
 #include "bake/asset/asset_writer.hpp"

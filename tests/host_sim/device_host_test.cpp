@@ -1,6 +1,5 @@
 // The simulated device against closed forms and against the stability limits of sampled walls.
 #include <cmath>
-#include <vector>
 
 #include "harness/test.hpp"
 #include "host_sim/plant/device.hpp"

@@ -1,6 +1,5 @@
 // Simulated machines that are homed by index pulses: sound ones are never off, also fast, behind
 // cables with backlash; a belt that slips is found at the first pulse that the simulation gives.
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 

@@ -1,7 +1,6 @@
 // The closed loop in this process, its log and its replay.
 #include <algorithm>
 #include <cstring>
-#include <memory>
 #include <string>
 #include <vector>
 

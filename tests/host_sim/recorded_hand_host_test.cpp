@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "harness/test.hpp"
 #include "host_sim/controllers/session.hpp"

@@ -1,6 +1,5 @@
 // Limits of sampled walls: the exact bound against eigenvalues, simulation against the exact bound.
 #include <cmath>
-#include <vector>
 
 #include "device/machines.hpp"
 #include "firmtouch/device/stable_wall.hpp"

@@ -1,6 +1,5 @@
 #pragma once
 // Shapes baked with their hulls, for host tests.
-#include <cstring>
 
 #include "bake/hull/bake_hull.hpp"
 #include "bake/mesh/bake_mesh.hpp"

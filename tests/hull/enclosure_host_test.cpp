@@ -1,6 +1,5 @@
 #include "../surface/shapes.hpp"
 
-#include <cstdlib>
 #include <set>
 
 #include "exact_oracle.hpp"

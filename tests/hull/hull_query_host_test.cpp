@@ -1,7 +1,6 @@
 // Queries of baked hulls against brute force in extended precision, and base hulls of every size.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "../surface/shapes.hpp"
 #include "bake/hull/bake_base_hull.hpp"

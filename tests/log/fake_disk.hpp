@@ -1,8 +1,6 @@
 #pragma once
-#include <deque>
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
 
 #include "log/memory_sink.hpp"

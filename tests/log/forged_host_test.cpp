@@ -1,5 +1,4 @@
 #include <fstream>
-#include <limits>
 
 #include "harness/test.hpp"
 #include "log/edit.hpp"

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>

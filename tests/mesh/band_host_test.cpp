@@ -1,5 +1,4 @@
 // Band queries: exact within the band, beyond it a certified lower bound in bounded work.
-#include <cfloat>
 #include <cmath>
 
 #include "baked_mesh.hpp"

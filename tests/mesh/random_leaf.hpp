@@ -1,7 +1,6 @@
 #pragma once
 // Random triangles of a leaf, with few distinct values, and their closest points one by one.
 
-#include <float.h>
 #include <stdint.h>
 
 #include "firmtouch/mesh/leaf.hpp"

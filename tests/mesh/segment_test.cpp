@@ -1,5 +1,4 @@
 // Segments through a cube: on the host and on the controller, with the same bits.
-#include <float.h>
 
 #include "cube.hpp"
 #include "firmtouch/core/hash.hpp"

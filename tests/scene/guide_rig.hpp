@@ -1,6 +1,5 @@
 #pragma once
 // A guide along an L, and its force on a tool; runs on the controller too.
-#include <stdint.h>
 
 #include "curve/small_curve.hpp"
 #include "firmtouch/scene/curve_guide.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 // A mesh with materials, and a hand that touches it tick by tick.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <vector>

@@ -2,7 +2,6 @@
 // in that object's frame.
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/scene/spline_touched.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 // Several objects, some of which move, and a proxy among them whose every move is observed in the
 // frame of each object.
-#include <cmath>
 #include <cstdint>
 #include <deque>
 #include <random>

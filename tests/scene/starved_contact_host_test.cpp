@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
 #include "firmtouch/scene/mesh_contact.hpp"
 #include "firmtouch/servo/evaluate.hpp"

@@ -1,6 +1,5 @@
 // The wide search of every level that this processor has gives the scalar search's answers, visits
 // and hints, to the bit.
-#include <cmath>
 
 #include "../mesh/cube.hpp"
 #include "bake/mesh/bake_mesh.hpp"

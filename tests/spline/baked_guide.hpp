@@ -1,7 +1,6 @@
 #pragma once
 // Curves baked and opened as guides, for tests.
 #include <cstring>
-#include <string>
 #include <utility>
 #include <vector>
 

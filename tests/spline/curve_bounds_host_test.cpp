@@ -1,9 +1,6 @@
 // Every bound that a baked curve stands on, as tools/FORMAT.md words it: what holds what, and how
 // fast the distance may turn.
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <string>
 
 #include "harness/long.hpp"
 #include "harness/test.hpp"

@@ -1,8 +1,6 @@
 // Every answer against intervals that certainly hold the truth: the returned point, the lower bound
 // and `exact`, at the places where a search may go wrong.
 #include <cmath>
-#include <cstdlib>
-#include <string>
 #include <vector>
 
 #include "firmtouch/spline/closest_point.hpp"

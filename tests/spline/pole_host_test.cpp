@@ -1,5 +1,4 @@
 // Patches that the baker must cut with care: with a pole (an edge that is one point), or folded.
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -1,6 +1,5 @@
 // Generated machined parts: closed and sound, with the long thin triangles of CAD exports.
 #include <algorithm>
-#include <cmath>
 
 #include "firmtouch/core/hash.hpp"
 #include "shapes.hpp"

@@ -2,7 +2,6 @@
 // Small surfaces made by hand, and oracles for surfaces that share no code with the tools.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <string>

@@ -1,7 +1,6 @@
 // `answers_host ASSET`: what tests/target/answers_main.cpp prints on a board, on this machine.
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <vector>

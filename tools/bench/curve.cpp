@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "bake/curve/curve_runs.hpp"
 #include "bake/curve/curve_tree.hpp"
 #include "bench/all_benches.hpp"

@@ -1,7 +1,6 @@
 #include "cli/csv_table.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <string_view>

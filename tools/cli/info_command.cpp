@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 
 #include "bake/asset/asset_views.hpp"
 #include "bake/asset/opening_cost.hpp"

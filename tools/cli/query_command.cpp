@@ -1,5 +1,3 @@
-#include <cstdio>
-
 #include "bake/asset/origin.hpp"
 #include "cli/commands.hpp"
 #include "cli/failure.hpp"

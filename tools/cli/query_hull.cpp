@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <vector>
 
 #include "bake/hull/bake_base_hull.hpp"

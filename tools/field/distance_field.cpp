@@ -10,9 +10,8 @@
 namespace firmtouch::tools {
 namespace {
 
-constexpr uint32_t kBlock = 8;          // voxels a side; halved twice on the way to a voxel
-constexpr size_t kBlocksAChunk = 16;    // with the same lists
-constexpr size_t kPointsAChunk = 4096;  // a chunk begins without a seed: the same for all threads
+constexpr uint32_t kBlock = 8;        // voxels a side; halved twice on the way to a voxel
+constexpr size_t kBlocksAChunk = 16;  // with the same lists
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point begin) {
@@ -206,22 +205,6 @@ DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelG
   }
   distance_field.distance_s = since(middle);
   return distance_field;
-}
-
-std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
-                                       const std::vector<Point>& points, uint32_t threads) {
-  std::vector<Nearest> values(points.size());
-  in_parallel(chunks(points.size(), kPointsAChunk), threads, [&](uint64_t chunk) {
-    const size_t end = std::min((chunk + 1) * kPointsAChunk, points.size());
-    for (size_t s = 0; s < solids.size(); ++s) {
-      uint32_t seed = kNoFace;
-      for (size_t i = chunk * kPointsAChunk; i < end; ++i) {
-        seed = solids[s].tree.nearest(solids[s].tree.local(points[i]), seed);
-        join(values[i], reported_by(solids[s], seed, points[i], static_cast<uint16_t>(s)));
-      }
-    }
-  });
-  return values;
 }
 
 }  // namespace firmtouch::tools

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "field/foot.hpp"
@@ -59,10 +58,5 @@ struct DistanceField {
 /// Source: Morris 2006, section 3.
 DistanceField make_distance_field(const std::vector<Solid>& solids, const VoxelGrid& grid,
                                   const FieldOptions& options);
-
-/// The same for any list of points: each begins with the triangle of the point before it, so that a
-/// list whose neighbours lie together is answered faster. Points: computed, all of them.
-std::vector<Nearest> nearest_to_points(const std::vector<Solid>& solids,
-                                       const std::vector<Point>& points, uint32_t threads);
 
 }  // namespace firmtouch::tools

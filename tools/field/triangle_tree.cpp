@@ -1,8 +1,6 @@
 #include "field/triangle_tree.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace firmtouch::tools {

@@ -1,7 +1,5 @@
 #include "hull/build_hull.hpp"
 
-#include <algorithm>
-
 #include "surface/check/mending.hpp"
 #include "surface/edges.hpp"
 

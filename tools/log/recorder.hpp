@@ -1,6 +1,5 @@
 #pragma once
 #include <atomic>
-#include <chrono>
 #include <mutex>
 #include <string>
 #include <thread>

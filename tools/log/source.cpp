@@ -1,7 +1,6 @@
 #include "log/source.hpp"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>

@@ -43,8 +43,6 @@ class SplineSink {
   /// rejects what has no length at all.
   void add(SplineCurve curve, uint64_t line);
   void add(SplineSurface surface, uint64_t line);
-  /// The number of the next entity that is added.
-  int next_piece() const { return pieces_; }
   /// The model, or the problem with its count.
   SplineModel finish();
 

@@ -1,8 +1,6 @@
 #pragma once
 // Answer and certificate from a foot-point, for .cpp files of this module only.
 
-#include <float.h>
-
 #include "firmtouch/curve/closest_point.hpp"
 #include "firmtouch/curve/segment.hpp"
 

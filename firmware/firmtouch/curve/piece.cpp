@@ -1,7 +1,5 @@
 #include "firmtouch/curve/piece.hpp"
 
-#include <float.h>
-
 #include "firmtouch/curve/answer.hpp"
 
 namespace firmtouch::curve {

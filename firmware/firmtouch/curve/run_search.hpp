@@ -1,8 +1,6 @@
 #pragma once
 // Traversal of a curve's tree of runs, for .cpp files of this module only.
 
-#include <float.h>
-
 #include "firmtouch/curve/grid.hpp"
 #include "firmtouch/curve/view.hpp"
 #include "firmtouch/query/certificate.hpp"

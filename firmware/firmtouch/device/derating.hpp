@@ -1,6 +1,4 @@
 #pragma once
-#include <stdint.h>
-
 #include "firmtouch/device/stored_linkage.hpp"
 
 // Thermal limits of a linkage's motors by I squared t: torque is proportional to current, so the

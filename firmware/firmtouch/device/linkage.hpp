@@ -1,6 +1,4 @@
 #pragma once
-#include <stdint.h>
-
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/device/joints.hpp"
 #include "firmtouch/math/vec3.hpp"

@@ -1,5 +1,4 @@
 #pragma once
-#include <stddef.h>
 #include <stdint.h>
 
 // How a progressive hull lies in an asset, byte for byte (tools/FORMAT.md says it in words). It

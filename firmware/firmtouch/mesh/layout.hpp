@@ -44,7 +44,6 @@ constexpr uint32_t kNoLeafBox = 0xFFFFFFFFu;
 // the baker's SAH trees of up to 2e6 triangles were seen to need 26. The baker refuses a deeper
 // tree, and so does open().
 constexpr uint32_t kMaxDepth = 40;
-constexpr uint32_t kMaxLeafTriangles = 7;
 constexpr uint32_t kMaxTriangles = 1u << 24;
 constexpr uint32_t kMaxNodes = 1u << 24;
 

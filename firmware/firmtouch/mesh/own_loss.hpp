@@ -2,8 +2,6 @@
 // What float32 can have lost of the nearest triangles of a search, by their own edges. For the
 // library's own translation units.
 
-#include <float.h>
-
 #include "firmtouch/mesh/nearest_search.hpp"
 
 namespace firmtouch::mesh {

@@ -1,5 +1,4 @@
 #pragma once
-#include <stddef.h>
 #include <stdint.h>
 
 // Input and output of one tick as plain structs. The controller computes the output from its state

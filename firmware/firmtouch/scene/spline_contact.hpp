@@ -1,6 +1,4 @@
 #pragma once
-#include <stdint.h>
-
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/certificate.hpp"
 #include "firmtouch/scene/compose.hpp"

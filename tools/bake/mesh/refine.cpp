@@ -4,7 +4,6 @@
 #include <cmath>
 #include <queue>
 #include <unordered_set>
-#include <utility>
 #include <vector>
 
 #include "bake/mesh/box_frame.hpp"

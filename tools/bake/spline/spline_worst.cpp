@@ -1,7 +1,6 @@
 #include "bake/spline/spline_worst.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "firmtouch/spline/closest_point.hpp"

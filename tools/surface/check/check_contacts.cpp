@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "surface/box_tree.hpp"
 #include "surface/check/mending.hpp"

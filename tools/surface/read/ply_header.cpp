@@ -1,7 +1,5 @@
 #include "surface/read/ply_header.hpp"
 
-#include <array>
-
 #include "surface/read/text_scan.hpp"
 
 namespace firmtouch::tools {
