@@ -34,8 +34,10 @@ double of_curve(core::Bytes head, core::Bytes samples) {
 
 // With weights there are four numbers a control point: a quarter more bytes than without.
 double of_spline(const asset::Container& asset, const char* name) {
-  const double pieces = asset.find(spline::kPiecesSection, name).size() / sizeof(spline::Piece);
-  const double coefficients = asset.find(spline::kCoefficientsSection, name).size();
+  const double pieces =
+      static_cast<double>(asset.find(spline::kPiecesSection, name).size() / sizeof(spline::Piece));
+  const auto coefficients =
+      static_cast<double>(asset.find(spline::kCoefficientsSection, name).size());
   const bool is_curve = !asset.find(spline::kArcsSection, name).empty();
   const bool has_weights = coefficients > (is_curve ? 56 : 224) * pieces;
   if (is_curve) return (has_weights ? 2950 : 2150) * coefficients;
