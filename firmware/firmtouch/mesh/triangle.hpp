@@ -148,10 +148,6 @@ template <class Shape, class Wanted>
 
 /// The same out of line, for where it is rare: find_foot() takes 0.4 kB. Result: false if it is
 /// beyond `wanted`.
-[[gnu::noinline, gnu::noclone, gnu::cold]] inline bool find_foot_apart(math::Vec3 p,
-                                                                       const OfCorners& shape,
-                                                                       Nearer wanted, Foot& foot) {
-  return find_foot(p, shape, wanted, foot);
-}
+bool find_foot_apart(math::Vec3 p, const OfCorners& shape, Nearer wanted, Foot& foot);
 
 }  // namespace firmtouch::mesh
