@@ -24,7 +24,7 @@ check() {
   for file in ${files:-$(find firmware -name '*.cpp' | LC_ALL=C sort)}; do
     grep -qF "\"$PWD/$file\"" "$place/compile_commands.json" || continue  # of a board
     checked=$((checked + 1))
-    "$(version_14 clang-tidy)" -p "$place" --quiet "$file" >"$place/said" 2>"$place/noise" || {
+    "$(version_14 clang-tidy)" -p "$place" --extra-arg=-std=c++17 --quiet "$file" >"$place/said" 2>"$place/noise" || {
       grep -E 'error:|warning:' "$place/said" || cat "$place/said" "$place/noise"
       bad=1
     }

@@ -37,6 +37,12 @@ Closest closest_point(const View& mesh, Vec3 p_m, query::Budget budget, Hint& hi
   return closest_by(mesh, ScalarFinder{mesh}, p_m, budget, hint);
 }
 
+Foot foot_on(Vec3 p, const OfCorners& triangle) {
+  Foot foot;
+  find_foot_apart(p, triangle, Nearer::than_nothing(), foot);
+  return foot;
+}
+
 void Prober::answer(const View& mesh, Vec3 p_m, const query::Budget& budget, core::Hash& hash) {
   const Closest c = closest_point(mesh, p_m, budget, hint);
   const float values[] = {c.distance_m,  c.point_m.x,   c.point_m.y,   c.point_m.z,

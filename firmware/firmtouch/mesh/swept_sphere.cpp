@@ -44,8 +44,7 @@ struct Passing {
     for (uint32_t k = 0; k < sphere.axes; ++k)
       if (is_free(triangle, sphere.axis[k])) return;
     // Towards the point of the triangle that is nearest to the begin.
-    Foot foot;
-    find_foot_apart({0.0f, 0.0f, 0.0f}, triangle, Nearer::than_nothing(), foot);
+    const Foot foot = foot_on({0.0f, 0.0f, 0.0f}, triangle);
     const float per_m = (0x1p-21f - 1.0f) / math::square_root(foot.distance2_m2);
     if (!is_free(triangle, foot.offset_m * per_m)) free_part = smaller(part, free_part);
   }

@@ -148,6 +148,11 @@ template <class Shape, class Wanted>
 
 /// The same out of line, for where it is rare: find_foot() takes 0.4 kB. Result: false if it is
 /// beyond `wanted`.
-bool find_foot_apart(math::Vec3 p, const OfCorners& shape, Nearer wanted, Foot& foot);
+[[gnu::noinline, gnu::cold]] inline bool find_foot_apart(math::Vec3 p, const OfCorners& shape,
+                                                         Nearer wanted, Foot& foot) {
+  return find_foot(p, shape, wanted, foot);
+}
+/// The same in one place, for other translation units: GCC makes them copies of the above.
+Foot foot_on(math::Vec3 p, const OfCorners& triangle);
 
 }  // namespace firmtouch::mesh
