@@ -68,7 +68,7 @@ Seen check_ways(const BakedMesh& baked, uint64_t seed, uint32_t ways) {
                 c = wide(baked.surface.vertices[face[2]]);
     const Point normal = cross(b - a, c - a);
     const Point unit = normal * (1 / length(normal));
-    mesh::SweptSphere sphere;
+    query::SweptSphere sphere;
     sphere.radius_m = static_cast<float>(size * std::pow(10, random.between(-6, -1.5)));
     const double off = double{sphere.radius_m} * random.between(0.9, 1.4);
     sphere.from_m = narrow(a + (b - a) * u + (c - a) * v + unit * off);
@@ -137,7 +137,7 @@ TEST(SweptSphere_AlongAFaceOfManyTriangles_IsFreeUpToTheWall) {
   options.is_signed = false;
   const BakedMesh baked(step(), options);
   for (const float radius_m : {0.0f, 0.001f, 0.03f, 0.2f}) {
-    mesh::SweptSphere sphere;
+    query::SweptSphere sphere;
     sphere.radius_m = radius_m;
     sphere.from_m = {0.3f, 0.13f, radius_m + 1e-6f * static_cast<float>(baked.size)};
     sphere.along_m = {1.2f, 0.31f, 0.0f};
@@ -159,7 +159,7 @@ TEST(SweptSphere_HostileWays_AreNotFreeAndTakeNoMoreThanTheBudget) {
   for (const float value : values)
     for (int where = 0; where < 4; ++where)
       for (const uint32_t work : {0u, 1u, 5u, 40u, 1000000u}) {
-        mesh::SweptSphere sphere;
+        query::SweptSphere sphere;
         sphere.from_m = {0.0f, 0.0f, 0.1f};
         sphere.along_m = {0.001f, 0.0f, 0.0f};
         sphere.radius_m = 0.001f;

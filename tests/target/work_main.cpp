@@ -105,7 +105,7 @@ struct Way {
   Answer query(Vec3 p_m, query::Budget budget, State& state) const {
     static const float kRadii[] = {4e-6f, 1e-3f, 1e-2f, 0.1f};
     const uint32_t bits = math::bits_of(p_m.x) ^ math::bits_of(p_m.y);
-    mesh::SweptSphere sphere;
+    query::SweptSphere sphere;
     sphere.from_m = state.from_m;
     sphere.along_m = p_m - state.from_m;
     sphere.radius_m = kRadii[bits % 4] * extent_m;

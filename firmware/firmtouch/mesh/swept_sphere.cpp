@@ -10,6 +10,7 @@ namespace firmtouch::mesh {
 namespace {
 
 using math::Vec3;
+using query::SweptSphere;
 
 // Work is counted in quarters of a unit: a node takes one, a triangle nine.
 constexpr uint32_t kPartsOfUnit = 4;

@@ -5,6 +5,7 @@
 #include "firmtouch/field/closest_point.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/swept_sphere.hpp"
 #include "firmtouch/scene/pose_loss.hpp"
 
 namespace firmtouch::scene {

@@ -12,7 +12,7 @@ namespace firmtouch::scene {
 
 constexpr uint32_t kMaxFeatures = 7;  // of the working set: a (tool, object) pair fits 512 B
 constexpr uint32_t kMaxQueries = 4;   // a tick
-constexpr uint32_t kWayShare = 8;  // part of the work that is left, to find whether a way is free
+constexpr uint32_t kWayShare = 8;     // an eighth of the work that is left may search a way
 // Relative to the size of the shape.
 constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
 constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
@@ -137,6 +137,7 @@ class ProxyMove {
   ProxyMoved moved_;
 };
 
+/// Searches the way; the second one is for shapes without free_part().
 template <class Shape>
 auto take_way_of(const Shape& shape, ProxyMove& move, int)
     -> decltype(shape.free_part(move.way(), move.way_budget(), *static_cast<uint32_t*>(nullptr)),
@@ -148,7 +149,7 @@ auto take_way_of(const Shape& shape, ProxyMove& move, int)
 template <class Shape>
 void take_way_of(const Shape&, ProxyMove&, long) {}
 
-/// The query that a move needs next.
+/// The query that a move needs next, farther on if the shape proves the way there free.
 template <class Shape>
 Near nearest_of(Shape& shape, ProxyMove& move) {
   if (move.is_short()) take_way_of(shape, move, 0);

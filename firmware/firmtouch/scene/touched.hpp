@@ -2,8 +2,8 @@
 #include <stdint.h>
 
 #include "firmtouch/math/vec3.hpp"
-#include "firmtouch/mesh/swept_sphere.hpp"
 #include "firmtouch/query/certificate.hpp"
+#include "firmtouch/query/swept_sphere.hpp"
 
 // What a proxy queries of a shape: a near feature, and a certified bound of the distance. A shape
 // is a struct with
@@ -55,7 +55,7 @@ struct Near : Nearness {
 
 /// A straight move of the tool's sphere, device frame. Its free part, 0 to 1, is one on which no
 /// point of the shape is nearer than the radius.
-using Way = mesh::SweptSphere;
+using Way = query::SweptSphere;
 
 /// A plane with a feature behind it.
 struct Tangent {
