@@ -1,5 +1,6 @@
 // Parts far from 0 are baked from an origin of their own: their certificates hold for the decimals
 // of the file. Oracle: brute force in double on those.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

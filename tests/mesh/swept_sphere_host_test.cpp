@@ -1,4 +1,5 @@
 // A sphere on its way: the free part is free, by brute force in double, and not needlessly short.
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <limits>

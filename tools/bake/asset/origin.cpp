@@ -1,5 +1,6 @@
 #include "bake/asset/origin.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "firmtouch/asset/layout.hpp"
