@@ -134,7 +134,8 @@ TEST(Objects_AnyMotionHandAndBudget_NeverCrossASurface) {
       object.friction_static = object.friction_dynamic = draw.between(0, 1);
       rig.add(draw.below(3), object);
     }
-    rig.contact.settings.radius_m = draw.below(2) == 0 ? 0.003f : 0.0005f;
+    const float radii_m[] = {0.003f, 0.0005f, 0.00002f, 0};
+    rig.contact.settings.radius_m = radii_m[draw.below(4)];
     rig.contact.settings.budget.work = budgets[seed % 4];
     BrokenAmongObjects broken;
     Vec3 hand_m{0, 0, 0.15f}, step_m;

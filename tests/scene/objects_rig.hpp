@@ -8,6 +8,7 @@
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/objects.hpp"
+#include "firmtouch/servo/evaluate.hpp"
 #include "scene/proxy_rig.hpp"
 
 namespace firmtouch::scene_test {
@@ -75,6 +76,9 @@ struct ObjectsRig {
     const scene::MeshTouched shape{shapes[shape_of[object]].object, hints[object]};
     return shape.near(x_m, budget, needed_m);
   }
+  float free_part(uint32_t object, scene::Way way, query::Budget budget, uint32_t& work) const {
+    return scene::free_part_of(shapes[shape_of[object]].object, way, budget, work);
+  }
 
   // scene::touch_objects(), observed.
   void tick(Vec3 hand_m, BrokenAmongObjects& broken) {
@@ -100,12 +104,11 @@ struct ObjectsRig {
     scene::NearestObject<ObjectsRig> nearest{tick, *this};
     scene::ProxyMove move(tick.settings(), scene_m, tick.goal_m(), proxy);
     while (move.aim()) {
-      const scene::Near found = nearest.near(move.query_m(), move.budget(), move.needed_m());
-      work += found.work;
-      move.take(found);
+      move.take(scene::nearest_of(nearest, move));
       if (is_observed) note(broken);
     }
     const scene::ProxyMoved moved = move.finish();
+    work += moved.work;
     if (is_observed) note(broken);
     const double end_m = ProxyRig::distance(proxy.position_m, tick.goal_m());
     if (is_observed && !is_growing && end_m > begin_m + 1e-7 * static_cast<double>(scene_m))

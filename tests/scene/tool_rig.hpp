@@ -47,6 +47,10 @@ struct ToolRig : ProxyRig {
     note(sphere);
     return scene::MeshTouched{object, hints[sphere]}.near(x_m, budget, needed_m);
   }
+  float free_part(uint32_t sphere, scene::Way way, query::Budget budget, uint32_t& work) {
+    note(sphere);
+    return scene::free_part_of(object, way, budget, work);
+  }
   float size_m() const { return view.head().diagonal_m; }
   scene::StoredTool stored() const {
     return {spheres.data(), static_cast<uint32_t>(spheres.size())};
@@ -146,8 +150,11 @@ struct ToolRig : ProxyRig {
     const double off_N =
         std::sqrt(std::pow(wide(is_N.x) - force[0], 2) + std::pow(wide(is_N.y) - force[1], 2) +
                   std::pow(wide(is_N.z) - force[2], 2));
-    broken.force_off = std::fmax(broken.force_off, off_N / sizes_N);
     const double k = wide(model.spring.stiffness_N_per_m);
+    // The anchor is rounded to float32: far from the origin by more than a light touch allows.
+    const Vec3 anchor_m = model.spring.anchor_m;
+    const double rounding_N = k * 0x1p-24 * wide(math::length(anchor_m));
+    broken.force_off = std::fmax(broken.force_off, (off_N - rounding_N) / sizes_N);
     const double setting = wide(contact.material.stiffness_N_per_m);
     broken.stiffest = std::fmax(broken.stiffest, k / setting);
     if (size_N > 0.5 * sizes_N)  // they do not balance each other

@@ -2,6 +2,7 @@
 
 #include "firmtouch/controller/proxy_surface.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/mesh/swept_sphere.hpp"
 #include "firmtouch/scene/mesh_touched.hpp"
 #include "firmtouch/scene/pose_loss.hpp"
 #include "firmtouch/scene/stored_name.hpp"
@@ -17,6 +18,11 @@ struct MeshObjects::Shapes {
     scene::MeshObject object;
     object.mesh = &of.mesh(i);
     return scene::MeshTouched{object, of.hint_[i]}.near(x_m, budget, needed_m);
+  }
+  float free_part(uint32_t i, const scene::Way& way, query::Budget budget, uint32_t& work) const {
+    const mesh::Sweep swept = mesh::sweep(of.mesh(i), way, budget);
+    work += swept.work;
+    return swept.free_part;
   }
 };
 

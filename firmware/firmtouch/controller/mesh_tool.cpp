@@ -17,6 +17,9 @@ struct MeshTool::Shape {
   scene::Near near(uint32_t sphere, math::Vec3 x_m, query::Budget budget, float needed_m) const {
     return scene::MeshTouched{object, hint[sphere]}.near(x_m, budget, needed_m);
   }
+  float free_part(uint32_t, scene::Way way, query::Budget budget, uint32_t& work) const {
+    return scene::free_part_of(object, way, budget, work);
+  }
 };
 
 void MeshTool::close() {

@@ -13,6 +13,10 @@
 //     float size_m() const;       // of the scene: the largest distance in it
 //
 // near() answers for one object, in the object's own frame, as a shape of scene/touched.hpp does.
+// So that small tools follow a fast hand, it may also have
+//
+//     float free_part(uint32_t object, const scene::Way& way, query::Budget budget,
+//                     uint32_t& work) const;
 namespace firmtouch::scene {
 
 constexpr uint8_t kNoObject = 0xFF;
@@ -78,6 +82,11 @@ class ObjectsTick {
   bool next();
   void take(const Near& near);
   Near nearest() const;
+
+  /// The same way in the frame of an object.
+  /// Result: whether the object may be in reach of it; if not, `own` is not to be used.
+  bool is_in_reach(uint32_t object, const Way& way, Way& own) const;
+  uint32_t count() const { return set_.count; }
 
   void finish(const ProxyMoved& moved, servo::LocalModel& model);
 
@@ -158,6 +167,19 @@ struct NearestObject {
       tick.take(shapes.near(q.object, q.x_m, q.budget, q.needed_m));
     }
     return tick.nearest();
+  }
+  // The least of all objects that are in reach.
+  template <class S = Shapes>
+  auto free_part(const Way& way, query::Budget budget, uint32_t& work) const
+      -> decltype(static_cast<S&>(shapes).free_part(0u, way, budget, work)) {
+    float least = 1.0f;
+    Way own;
+    for (uint32_t i = 0; i < tick.count() && least > 0.0f; ++i) {
+      if (!tick.is_in_reach(i, way, own)) continue;
+      const float part = shapes.free_part(i, own, {budget.work - work}, work);
+      if (part < least) least = part;
+    }
+    return least;
   }
   float size_m() const { return shapes.size_m(); }
 };

@@ -12,7 +12,10 @@
 //     scene::Near near(uint32_t sphere, math::Vec3 x_m, query::Budget budget, float needed_m);
 //     float size_m() const;
 //
-// near() is that of scene/touched.hpp; it may keep a hint a sphere.
+// near() is that of scene/touched.hpp; it may keep a hint a sphere. So that small spheres follow a
+// fast hand, it may also have
+//
+//     float free_part(uint32_t sphere, scene::Way way, query::Budget budget, uint32_t& work) const;
 namespace firmtouch::scene {
 
 /// Fixed work of one more sphere that is near: four queries of a proxy, as in tick_work.
@@ -96,6 +99,11 @@ struct OfSphere {
 
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) {
     return shape.near(sphere, x_m, budget, needed_m);
+  }
+  template <class S = Shape>
+  auto free_part(const Way& way, query::Budget budget, uint32_t& work) const
+      -> decltype(static_cast<S&>(shape).free_part(sphere, way, budget, work)) {
+    return shape.free_part(sphere, way, budget, work);
   }
   float size_m() const { return shape.size_m(); }
 };
