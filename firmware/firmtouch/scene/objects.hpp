@@ -20,6 +20,8 @@
 namespace firmtouch::scene {
 
 constexpr uint8_t kNoObject = 0xFF;
+// Units, to search a way: with less most searches end early, and certificates lack what they took.
+constexpr uint32_t kMinObjectsWay = 48;
 
 /// State of a (tool, object) pair from tick to tick. The caller owns one a pair. For an object that
 /// is new among the others: its pose, and nothing else.
@@ -172,7 +174,7 @@ struct NearestObject {
   template <class S = Shapes>
   auto free_part(const Way& way, query::Budget budget, uint32_t& work) const
       -> decltype(static_cast<S&>(shapes).free_part(0u, way, budget, work)) {
-    float least = 1.0f;
+    float least = budget.work < kMinObjectsWay ? 0.0f : 1.0f;
     Way own;
     for (uint32_t i = 0; i < tick.count() && least > 0.0f; ++i) {
       if (!tick.is_in_reach(i, way, own)) continue;
