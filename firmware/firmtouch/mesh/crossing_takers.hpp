@@ -12,6 +12,7 @@ struct OneHit {
   Hit& hit;
   float limit = 1;
 
+  explicit OneHit(Hit& reported) : hit(reported) {}
   void set(const Crossing& crossing, uint32_t triangle) {
     hit.hit = true;
     hit.t = crossing.t;
@@ -21,7 +22,7 @@ struct OneHit {
 };
 
 struct First : OneHit {
-  explicit First(Hit& reported) : OneHit{reported} {}
+  using OneHit::OneHit;
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     const bool is_first =
@@ -35,7 +36,7 @@ struct First : OneHit {
 };
 
 struct Any : OneHit {
-  explicit Any(Hit& reported) : OneHit{reported} {}
+  using OneHit::OneHit;
 
   bool take(const Crossing& crossing, uint32_t triangle) {
     set(crossing, triangle);

@@ -26,18 +26,18 @@ struct Sorted {
   }
 };
 
-template <class Rows>
-constexpr uint32_t size_of() {
-  return static_cast<uint32_t>(sizeof(Rows::kRows) / sizeof(Rows::kRows[0]));
+template <uint32_t kSize>
+constexpr uint32_t size_of(const Entry (&)[kSize]) {
+  return kSize;
 }
 
 template <class... Rows>
 constexpr auto sort() {
-  Sorted<(size_of<Rows>() + ... + 0u)> sorted;
+  Sorted<(size_of(Rows::kRows) + ... + 0u)> sorted;
   const auto add = [&sorted](const Entry* rows, uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) sorted.add(rows[i]);
   };
-  (add(Rows::kRows, size_of<Rows>()), ...);
+  (add(Rows::kRows, size_of(Rows::kRows)), ...);
   return sorted;
 }
 

@@ -124,7 +124,7 @@ bool ObjectsTick::renew(const Bounds& bounds) {
   if (is_set(renewed_, i) || settings_.budget.work <= renewals_.work) return false;
   const Vec3 x_m = carried_by(i).m;
   const float moved_m = math::length(in_object_m(i, bounds.place) - x_m);
-  renewed_ |= 1u << i;
+  renewed_ |= 1u << i;  // NOLINT(clang-analyzer-core*): i is below set_.count
   query_ = {i, x_m, {settings_.budget.work - renewals_.work}, proxy_.radius_m + moved_m};
   constexpr float kBand = 0.02f;  // beyond what is needed, of the size of the scene
   query_.budget.band_m = query_.needed_m + moved_m + kBand * size_m_;

@@ -65,8 +65,8 @@ bool GuideNodes::find_cut(uint32_t piece, const Range& range, float& at) const {
   auto last = static_cast<uint32_t>(high);
   if (static_cast<float>(last) < high) ++last;
   if (last - first < 2) return false;
-  at =
-      2.0f * static_cast<float>((first + last) / 2) / static_cast<float>(guide_.intervals()) - 1.0f;
+  const uint32_t middle = (first + last) / 2;
+  at = 2.0f * static_cast<float>(middle) / static_cast<float>(guide_.intervals()) - 1.0f;
   return range.low < at && at < range.high;
 }
 

@@ -266,10 +266,9 @@ bool add_bends(const Piece& piece, const float* coefficients, const Region& cell
   constexpr float kShare = 1.0f / kFineSide, kFirst = kFineSide - 1;
   region.half_u = kShare * cell.half_u;
   region.half_v = kShare * cell.half_v;
-  region.middle_u =
-      cell.middle_u + region.half_u * (2.0f * static_cast<float>(fine_step % kFineSide) - kFirst);
-  region.middle_v =
-      cell.middle_v + region.half_v * (2.0f * static_cast<float>(fine_step / kFineSide) - kFirst);
+  const uint32_t column = fine_step % kFineSide, row = fine_step / kFineSide;
+  region.middle_u = cell.middle_u + region.half_u * (2.0f * static_cast<float>(column) - kFirst);
+  region.middle_v = cell.middle_v + region.half_v * (2.0f * static_cast<float>(row) - kFirst);
   LeafShape shape;
   derive(piece, coefficients, region, shape);
   if (!(shape.min_weight > 0.0f)) return false;

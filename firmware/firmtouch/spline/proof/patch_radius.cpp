@@ -86,7 +86,7 @@ float bent_of(const LeafShape& shape) {
 
 template <class T>
 T by_powers(const T* c, uint32_t stride, uint32_t degree, float x) {
-  T sum = c[degree * stride];
+  T sum = c[degree * stride];  // NOLINT(clang-analyzer-core*): there are degree + 1
   while (degree-- > 0) sum = sum * x + c[degree * stride];
   return sum;
 }
