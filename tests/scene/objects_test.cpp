@@ -75,6 +75,20 @@ bool is_near(float a, float b, float by) { return a - b <= by && b - a <= by; }
 
 }  // namespace
 
+TEST(Objects_EmptySetAndAnyRadius_LeaveTheToolAtTheHand) {
+  const float radii_m[] = {0.003f, 0, -1, 1e9f, __builtin_inff(), __builtin_nanf("")};
+  for (const float radius_m : radii_m) {
+    Boxes boxes;
+    boxes.contact.settings.radius_m = radius_m;
+    for (uint32_t tick = 0; tick < 20; ++tick) {
+      boxes.contact.position_m = {0.001f * static_cast<float>(tick), 0, 0};
+      scene::begin_model(boxes.model, boxes.contact.position_m, tick, 2);
+      scene::touch_objects(boxes.contact, {nullptr, nullptr, 0}, boxes, boxes.touch, boxes.model);
+      CHECK(is_near(boxes.touch.touch.proxy.position_m.x, boxes.contact.position_m.x, 0));
+    }
+  }
+}
+
 // A wall that rises by far more than a small tool's size in a tick.
 TEST(Objects_WallThatRisesThroughAHeldTool_PushesItInEachTick) {
   const float radii_m[] = {kRadius_m, 0.00002f}, speeds_mps[] = {0.05f, 0.5f, 5.0f};

@@ -83,7 +83,7 @@ static inline bool search(const View& mesh, math::Vec3 a_m, math::Vec3 b_m, quer
       if (!take_leaf(mesh, frame, child_of(now), visitor)) return true;
       if (math::bits_of(visitor.limit) != last_key) slabs.set_limit(visitor.limit);
       last_key = math::bits_of(visitor.limit);
-      now = pending[--count];
+      now = pending[--count];  // NOLINT(clang-analyzer-core*): kEnd is below all
       continue;
     }
     // Branchless, for no predictor learns it: next is the nearer box that is entered, else the

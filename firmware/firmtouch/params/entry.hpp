@@ -16,26 +16,26 @@ enum class When : uint8_t {
 };
 
 struct Entry {
-  uint16_t number = 0;  // where its value stands in Values; tables are sorted by it
-  When when = When::kAnytime;
   const char* name = "";  // ends in its unit
   const char* unit = "";  // SI; "1" for a plain number
-  float low = 0;          // both ends belong to the range
+  const char* what = "";
+  float low = 0;  // both ends belong to the range
   float high = 0;
   float initial = 0;
-  const char* what = "";
+  uint16_t number = 0;  // where its value stands in Values; tables are sorted by it
+  When when = When::kAnytime;
 
   constexpr Entry() = default;
   constexpr Entry(uint16_t its_number, const char* its_name, const char* its_unit, float lowest,
                   float highest, float at_first, When changes, const char* means)
-      : number(its_number),
-        when(changes),
-        name(its_name),
+      : name(its_name),
         unit(its_unit),
+        what(means),
         low(lowest),
         high(highest),
         initial(at_first),
-        what(means) {}
+        number(its_number),
+        when(changes) {}
 };
 
 // Upper ends of rows; servo and its guard have the same ceilings.
