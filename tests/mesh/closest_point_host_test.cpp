@@ -64,7 +64,7 @@ bool at_crossing(const BakedMesh& baked, const tools::Crossings& crossings, Vec3
 // exact: square to the pseudonormal, or within 28 units of float32 of the longest edge.
 bool may_hide_side(const BakedMesh& baked, Vec3 p_m, const mesh::Closest& c, const Truth& truth) {
   const double height_m = std::fabs(dot(wide(p_m) - wide(c.point_m), wide(c.direction)));
-  return height_m < 6e-5 * truth.distance + 28 * 0x1p-24 * baked.view.head().longest_edge_m;
+  return height_m < 6e-5 * truth.distance + 28 * 0x1p-24 * double{baked.view.head().longest_edge_m};
 }
 
 void against_brute_force(const BakedMesh& baked, size_t count, uint64_t seed,
