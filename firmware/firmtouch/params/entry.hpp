@@ -15,6 +15,7 @@ enum class When : uint8_t {
   kMayFall,    // a limit: while the motors are on it may only fall
 };
 
+/// A row. Rows are written in the order of the constructor; the fields stand without gaps.
 struct Entry {
   const char* name = "";  // ends in its unit
   const char* unit = "";  // SI; "1" for a plain number
