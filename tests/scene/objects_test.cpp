@@ -27,6 +27,7 @@ scene::Object at(Vec3 place_m, Vec3 velocity_mps = {}) {
 // Boxes of 0.2 x 0.2 x 0.02 m, or all that is below their tops, and a tool with its servo.
 struct Boxes {
   scene::BoxTouched box{{}, {0.1f, 0.1f, 0.01f}};
+  scene::PlaneTouched top{{0, 0, 0.01f}, {0, 0, 1}};
   scene::Object object[scene::kMaxObjects];
   scene::ObjectPair pair[scene::kMaxObjects];
   scene::ObjectsTouch touch;
@@ -51,8 +52,10 @@ struct Boxes {
   }
   scene::Near near(uint32_t, Vec3 x_m, query::Budget budget, float needed_m) {
     ++queries;
-    const scene::PlaneTouched top{{0, 0, 0.01f}, {0, 0, 1}};
     return is_plane ? top.near(x_m, budget, needed_m) : box.near(x_m, budget, needed_m);
+  }
+  float free_part(uint32_t, const scene::Way& way, query::Budget budget, uint32_t& work) const {
+    return is_plane ? top.free_part(way, budget, work) : box.free_part(way, budget, work);
   }
   float size_m() const { return 0.5f; }
 

@@ -125,7 +125,7 @@ void ride(TouchSubject& subject, uint64_t seed, uint64_t ticks, TouchSums& sums)
   // Half of the rides are usual ones, the others anything.
   const bool is_usual = seed % 2 == 0;
   const double radius_m = kRadii_m[is_usual ? 2 + random.below(3) : random.below(5)];
-  tool.settings.radius_m = static_cast<float>(radius_m * scale);
+  tool.settings.radius_m = std::max(static_cast<float>(radius_m * scale), subject.min_radius_m);
   tool.settings.friction_static = tool.settings.friction_dynamic = kFrictions[random.below(5)];
   tool.settings.budget.work = is_usual ? 640 : kWork[random.below(5)];
   const double least_m = 2e-6 * wide(subject.size_m);

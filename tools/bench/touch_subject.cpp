@@ -121,6 +121,7 @@ class TouchedSplines final : public TouchSubject {
     low_m = {head.low_m[0], head.low_m[1], head.low_m[2]};
     high_m = {head.high_m[0], head.high_m[1], head.high_m[2]};
     size_m = head.extent_m;
+    min_radius_m = scene::kMinBall * size_m;
     ticks_between_places = 4096;
     const double each = kTriangles / 2 / static_cast<double>(model.surfaces.size());
     tools::Surface surface;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/bench.hpp"
-#include "firmtouch/scene/touched.hpp"
+#include "firmtouch/scene/proxy.hpp"
 #include "surface/point.hpp"
 
 namespace firmtouch::bench {
@@ -15,6 +15,7 @@ class TouchSubject {
   std::string name;
   math::Vec3 low_m, high_m;
   float size_m = 0;                   // as the shape gives it
+  float min_radius_m = 0;             // that a tool's is raised to
   double least_radius_m = 0;          // crossings of smaller tools have no oracle
   uint32_t ticks_between_places = 1;  // that are measured: more where the oracle is slow
 

@@ -2,7 +2,7 @@
 #include "firmtouch/scene/touched.hpp"
 
 // Shapes in closed form, device frame: models of what a shape of your own looks like. Each costs
-// one visit a query and keeps no hint.
+// one visit a query, one unit a way, and keeps no hint.
 namespace firmtouch::scene {
 
 /// The half-space behind a plane.
@@ -12,6 +12,7 @@ struct PlaneTouched {
 
   float size_m() const { return scale_m; }
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
+  float free_part(const Way& way, query::Budget budget, uint32_t& work) const;
 };
 
 struct SphereTouched {
@@ -20,6 +21,7 @@ struct SphereTouched {
 
   float size_m() const;
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
+  float free_part(const Way& way, query::Budget budget, uint32_t& work) const;
 };
 
 /// All points within radius_m of a segment.
@@ -29,6 +31,7 @@ struct CapsuleTouched {
 
   float size_m() const;
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
+  float free_part(const Way& way, query::Budget budget, uint32_t& work) const;
 };
 
 /// Flat ends, across the axis.
@@ -38,6 +41,7 @@ struct CylinderTouched {
 
   float size_m() const;
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
+  float free_part(const Way& way, query::Budget budget, uint32_t& work) const;
 };
 
 struct BoxTouched {
@@ -46,6 +50,7 @@ struct BoxTouched {
 
   float size_m() const;
   Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const;
+  float free_part(const Way& way, query::Budget budget, uint32_t& work) const;
 };
 
 }  // namespace firmtouch::scene

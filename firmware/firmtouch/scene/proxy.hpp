@@ -1,6 +1,7 @@
 #pragma once
 #include <stdint.h>
 
+#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/nearest_in_planes.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -16,6 +17,9 @@ constexpr uint32_t kWayShare = 8;     // an eighth of the work that is left may 
 // Relative to the size of the shape.
 constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
 constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
+// On a shape that proves no way free (free_part() in scene/touched.hpp) a move ends with the free
+// ball, so a smaller one would lag behind a hand.
+constexpr float kMinBall = 1e-3f;
 
 struct ProxySettings {
   float radius_m = 0;
@@ -156,6 +160,20 @@ Near nearest_of(Shape& shape, ProxyMove& move) {
   return shape.near(move.query_m(), move.budget(), move.needed_m());
 }
 
+/// The settings, with a radius of at least kMinBall; the second one is for shapes with free_part().
+template <class Shape>
+ProxySettings settings_for(Shape& shape, const ProxySettings& settings, long) {
+  ProxySettings used = settings;
+  used.radius_m = math::larger(settings.radius_m, kMinBall * shape.size_m());
+  return used;
+}
+template <class Shape>
+auto settings_for(Shape& shape, const ProxySettings& settings, int)
+    -> decltype(shape.free_part(Way{}, query::Budget{}, *static_cast<uint32_t*>(nullptr)),
+                (settings)) {
+  return settings;
+}
+
 /// Moves the proxy towards the hand at `goal_m` (device frame).
 /// Result, from the first tick with Phase::kFree on, for every shape whose bounds are true, every
 ///         budget, goal, setting, and content of the working set:
@@ -166,7 +184,8 @@ Near nearest_of(Shape& shape, ProxyMove& move) {
 template <class Shape>
 ProxyMoved move_proxy(const ProxySettings& settings, math::Vec3 goal_m, Shape& shape,
                       Proxy& proxy) {
-  ProxyMove move(settings, shape.size_m(), goal_m, proxy);
+  const ProxySettings& used = settings_for(shape, settings, 0);
+  ProxyMove move(used, shape.size_m(), goal_m, proxy);
   while (move.aim()) move.take(nearest_of(shape, move));
   return move.finish();
 }

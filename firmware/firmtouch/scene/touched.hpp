@@ -15,6 +15,7 @@
 //
 //     float free_part(scene::Way way, query::Budget budget, uint32_t& work) const;
 //
+// Without it a tool's radius is at least kMinBall of the size (scene/proxy.hpp).
 // It may keep a hint between queries. If the budget ends before the bound reaches `needed_m`, it
 // may use a coarser bound that is cheaper. scene/analytic.hpp has five shapes,
 // scene/mesh_touched.hpp and scene/spline_touched.hpp those of an asset.
