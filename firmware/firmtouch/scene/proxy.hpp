@@ -1,7 +1,6 @@
 #pragma once
 #include <stdint.h>
 
-#include "firmtouch/math/isa.hpp"
 #include "firmtouch/math/nearest_in_planes.hpp"
 #include "firmtouch/math/vec3.hpp"
 #include "firmtouch/query/certificate.hpp"
@@ -160,12 +159,12 @@ Near nearest_of(Shape& shape, ProxyMove& move) {
   return shape.near(move.query_m(), move.budget(), move.needed_m());
 }
 
-/// The settings, with a radius of at least kMinBall; the second one is for shapes with free_part().
+/// The settings with a radius of at least kMinBall.
+ProxySettings with_ball(const ProxySettings& settings, float size_m);
+/// Those for a shape; the second one is for shapes with free_part().
 template <class Shape>
 ProxySettings settings_for(Shape& shape, const ProxySettings& settings, long) {
-  ProxySettings used = settings;
-  used.radius_m = math::larger(settings.radius_m, kMinBall * shape.size_m());
-  return used;
+  return with_ball(settings, shape.size_m());
 }
 template <class Shape>
 auto settings_for(Shape& shape, const ProxySettings& settings, int)

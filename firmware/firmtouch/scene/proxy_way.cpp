@@ -6,6 +6,12 @@ namespace firmtouch::scene {
 
 using math::Vec3;
 
+ProxySettings with_ball(const ProxySettings& settings, float size_m) {
+  ProxySettings used = settings;
+  used.radius_m = math::larger(settings.radius_m, kMinBall * size_m);
+  return used;
+}
+
 Way ProxyMove::way() const {
   Way way;
   way.from_m = proxy_.position_m;
