@@ -47,15 +47,17 @@ class Search {
     for (const Face& face : surface_.faces) boxes.push_back(box_of(face));
     const BoxTree tree(std::move(boxes));
     std::vector<uint32_t> near;
+    std::vector<std::pair<uint32_t, Pierced>> met;
     for (uint32_t f = 0; f < surface_.faces.size(); ++f) {
-      near.clear();
+      near.clear(), met.clear();
       tree.overlaps(box_of(surface_.faces[f]), near);
-      std::sort(near.begin(), near.end());
       for (const uint32_t g : near) {
         if (g <= f || share_an_edge(surface_.faces[f], surface_.faces[g])) continue;
-        const Pierced how = std::max(pierced(surface_.faces[f], surface_.faces[g]),
-                                     pierced(surface_.faces[g], surface_.faces[f]));
-        if (how == Pierced::kNot) continue;
+        const Pierced how = meet(surface_.faces[f], surface_.faces[g]);
+        if (how != Pierced::kNot) met.push_back({g, how});
+      }
+      std::sort(met.begin(), met.end());
+      for (const auto& [g, how] : met) {
         if (found.pairs.size() == kMaxCrossings) {
           found.has_more_pairs = true;
           return;
@@ -68,9 +70,11 @@ class Search {
 
   // How the edge from a to b passes through the face.
   Pierced pierced(uint32_t a, uint32_t b, const Face& face) const {
-    const Point p = at_[a], q = at_[b], u = at_[face[0]], v = at_[face[1]], w = at_[face[2]];
-    const double above = side_of_plane(u, v, w, p), below = side_of_plane(u, v, w, q);
+    return pierced(a, b, face, side(face, a), side(face, b));
+  }
+  Pierced pierced(uint32_t a, uint32_t b, const Face& face, double above, double below) const {
     if (!((above > 0 && below < 0) || (above < 0 && below > 0))) return Pierced::kNot;
+    const Point p = at_[a], q = at_[b], u = at_[face[0]], v = at_[face[1]], w = at_[face[2]];
     const double s = side_of_plane(p, q, u, v), t = side_of_plane(p, q, v, w),
                  r = side_of_plane(p, q, w, u);
     if ((s > 0 && t > 0 && r > 0) || (s < 0 && t < 0 && r < 0)) return Pierced::kInside;
@@ -105,9 +109,32 @@ class Search {
             {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
   }
 
-  Pierced pierced(const Face& by, const Face& face) const {
-    return std::max(
-        {pierced(by[0], by[1], face), pierced(by[1], by[2], face), pierced(by[2], by[0], face)});
+  double side(const Face& face, uint32_t v) const {
+    return side_of_plane(at_[face[0]], at_[face[1]], at_[face[2]], at_[v]);
+  }
+
+  // Of n faces about a vertex all n^2 / 2 pairs are looked at: most are decided by the first sides.
+  Pierced meet(const Face& a, const Face& b) const {
+    const double s[3] = {side(b, a[0]), side(b, a[1]), side(b, a[2])};
+    // At most one corner is common; the others lie on one side of b's plane.
+    const bool above = s[0] > 0 || s[1] > 0 || s[2] > 0, below = s[0] < 0 || s[1] < 0 || s[2] < 0;
+    if (above != below && is_sure(a, b, s)) return Pierced::kNot;
+    const double t[3] = {side(a, b[0]), side(a, b[1]), side(a, b[2])};
+    Pierced how = Pierced::kNot;
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t next = (k + 1) % 3;
+      how = std::max({how, pierced(a[k], a[next], b, s[k], s[next]),
+                      pierced(b[k], b[next], a, t[k], t[next])});
+    }
+    return how;
+  }
+  // Whether none but a common corner may lie in the plane.
+  static bool is_sure(const Face& a, const Face& b, const double (&side)[3]) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const bool is_off = side[k] > 0 || side[k] < 0;
+      if (!is_off && a[k] != b[0] && a[k] != b[1] && a[k] != b[2]) return false;
+    }
+    return true;
   }
 
   const Surface& surface_;

@@ -81,10 +81,10 @@ class Touches {
       near.clear();
       tree.overlaps(box_of(f), near);
       for (const uint32_t g : near) {
-        if (g == f || lies_on_one_side(f, g)) continue;
-        for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g);
-        for (uint32_t k = 0; k < 3; ++k) look_at_edge(f, k, g);
-        if (g > f && has_same_places(f, g)) faces.insert(f);
+        if (g <= f || lies_on_one_side(f, g) || lies_on_one_side(g, f)) continue;
+        for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g), look_at_corner(g, k, f);
+        for (uint32_t k = 0; k < 3; ++k) look_at_edge(f, k, g), look_at_edge(g, k, f);
+        if (has_same_places(f, g)) faces.insert(f);
       }
     }
   }
