@@ -19,6 +19,12 @@ namespace firmtouch::mesh_test {
 using tools::Point;
 using tools::Random;
 inline Point wide(math::Vec3 v) { return tools::to_point(v); }
+inline math::Vec3 narrow(Point p) { return tools::to_vec3(p); }
+
+inline tools::Surface moved(tools::Surface surface, double scale, Point shift) {
+  for (math::Vec3& v : surface.vertices) v = narrow(wide(v) * scale + shift);
+  return surface;
+}
 
 struct Truth {
   double distance = 0;  // unsigned
@@ -118,7 +124,7 @@ inline std::vector<math::Vec3> hard_queries(const tools::Surface& surface, size_
     if (i % 5 < 3) p = p + shift * reach;
     if (i % 5 == 3) p = centre + shift * (0.75 * size);
     if (i % 5 == 4) p = centre + shift * (size * std::pow(10.0, random.between(0, 4)));
-    queries.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    queries.push_back(narrow(p));
   }
   return queries;
 }

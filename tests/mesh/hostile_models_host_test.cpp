@@ -48,14 +48,6 @@ std::string obj_of(const Corners& corners, size_t first = 0) {
   return text;
 }
 
-tools::Surface moved(tools::Surface surface, double scale, Point shift) {
-  for (Vec3& v : surface.vertices) {
-    const Point p = wide(v) * scale + shift;
-    v = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-  }
-  return surface;
-}
-
 struct Model {
   tools::Surface surface;
   std::string problem;  // of reader, check or baker

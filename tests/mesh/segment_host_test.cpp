@@ -16,18 +16,6 @@ using namespace mesh_test;  // NOLINT
 using math::Vec3;
 using Room = std::vector<mesh::SurfaceCrossing>;
 
-tools::Surface scaled(tools::Surface surface, double scale, Point shift) {
-  for (Vec3& v : surface.vertices) {
-    const Point p = wide(v) * scale + shift;
-    v = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-  }
-  return surface;
-}
-
-Vec3 narrow(Point p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-
 // Points where it hurts: corners, middles and other points of edges, points of faces (as near as
 // floats come), and anywhere in a box twice the model's.
 class Aims {
@@ -247,9 +235,9 @@ TEST(NothingLeaksThroughTinyHugeOrFarModels) {
   const size_t count = long_run() ? 2000000 : 10000;
   const tools::Surface model = tools::make_part(1, 1000);
   const double unit = 1 / diagonal(model);
-  no_leaks(BakedMesh(scaled(model, 1e-6 * unit, {})), count, 31);
-  no_leaks(BakedMesh(scaled(model, 1e6 * unit, {})), count, 32);
-  no_leaks(BakedMesh(scaled(model, unit, {200, -300, 100})), count, 33);
+  no_leaks(BakedMesh(moved(model, 1e-6 * unit, {})), count, 31);
+  no_leaks(BakedMesh(moved(model, 1e6 * unit, {})), count, 32);
+  no_leaks(BakedMesh(moved(model, unit, {200, -300, 100})), count, 33);
 }
 
 TEST(CrossingsAreThoseOfBruteForceInDouble) {

@@ -16,10 +16,6 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace mesh_test;  // NOLINT
 using math::Vec3;
 
-Vec3 narrow(Point p) {
-  return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-
 Point random_vector(Random& random) {
   return {random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
 }
