@@ -30,13 +30,6 @@ void guard_below(uint32_t bottom) {
 
 }  // namespace
 
-void stack_paint() {
-  uint32_t here;
-  asm volatile("mov %0, sp" : "=r"(here));
-  const uint32_t* end = reinterpret_cast<const uint32_t*>(static_cast<uintptr_t>(here)) - 16;
-  for (volatile uint32_t* word = __stack_bottom; word < end; ++word) *word = kStackPaint;
-}
-
 // Armv8-M can only deny writing, and has a limit register besides. Uses MPU region GUARD_REGION of
 // the linker script, 0 if it names none. No effect on a core without an MPU.
 void stack_guard() {

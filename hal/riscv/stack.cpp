@@ -11,13 +11,6 @@ uint32_t address(const void* p) { return static_cast<uint32_t>(reinterpret_cast<
 
 }  // namespace
 
-void stack_paint() {
-  uint32_t here;
-  asm volatile("mv %0, sp" : "=r"(here));
-  const uint32_t* end = reinterpret_cast<const uint32_t*>(static_cast<uintptr_t>(here)) - 16;
-  for (volatile uint32_t* word = __stack_bottom; word < end; ++word) *word = kStackPaint;
-}
-
 // PMP entry 0, a naturally aligned power of two (privileged specification 1.12, 3.7.1): no access
 // until reset, also in machine mode.
 void stack_guard() {

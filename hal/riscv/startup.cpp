@@ -1,6 +1,5 @@
 #include <stdint.h>
 
-#include "emulator/exit.hpp"
 #include "firmtouch/hal/board.hpp"
 #include "firmtouch/hal/motors.hpp"
 #include "parts/stack.hpp"
@@ -45,15 +44,3 @@ extern Constructor __init_array_begin[], __init_array_end[];
 }
 
 }  // extern "C"
-
-namespace firmtouch::hal {
-
-// Interrupts first: a tick behind motors_off() would switch the power stage on again.
-void board_exit(int status) {
-  asm volatile("csrci mstatus, 8" ::: "memory");
-  motors_off();
-  emulator_exit(status);
-  for (;;) asm volatile("wfi");
-}
-
-}  // namespace firmtouch::hal
