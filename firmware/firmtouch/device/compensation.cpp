@@ -1,6 +1,5 @@
 #include "firmtouch/device/compensation.hpp"
 
-#include "firmtouch/core/bytes.hpp"
 #include "firmtouch/device/rules.hpp"
 
 namespace firmtouch::device {
@@ -45,13 +44,11 @@ core::Bytes Compensation::before(core::Bytes section) {
 template <>
 core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linkage) {
   layout_ = nullptr;
-  const uint32_t rest = before(section).size();
-  if (rest == section.size()) return core::kPassed;
-  const CompensationLayout& compensation =
-      core::as_array<CompensationLayout>({section.data() + rest, sizeof(CompensationLayout)}, 1)[0];
+  const CompensationLayout* const compensation = find(section);
+  if (compensation == nullptr) return core::kPassed;
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    const float spring = compensation.spring_Nm_per_rad[k], relaxed = compensation.relaxed_rad[k];
+    const float spring = compensation->spring_Nm_per_rad[k], relaxed = compensation->relaxed_rad[k];
     if (is_zero(spring) && is_zero(relaxed)) continue;
     if (!(spring > 0.0f && spring <= kMaxSpring_Nm_per_rad && k < linkage.layout().joints))
       return reject(kRuleCompensation, k);
@@ -60,10 +57,10 @@ core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linka
     has_one = true;
   }
   core::Verdict verdict = core::kPassed;
-  has_one |= check_friction(compensation, linkage, verdict);
+  has_one |= check_friction(*compensation, linkage, verdict);
   if (!verdict.ok()) return verdict;
   if (!has_one) return reject(kRuleCompensation, 3 * kMaxJoints + 1);
-  layout_ = &compensation;
+  layout_ = compensation;
   return core::kPassed;
 }
 

@@ -32,17 +32,15 @@ core::Bytes Derating::before(core::Bytes section) {
 template <>
 core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage) {
   layout_ = nullptr;
-  const uint32_t rest = before(section).size();
-  if (rest == section.size()) return core::kPassed;
-  const DeratingLayout& derating =
-      core::as_array<DeratingLayout>({section.data() + rest, sizeof(DeratingLayout)}, 1)[0];
+  const DeratingLayout* const derating = find(section);
+  if (derating == nullptr) return core::kPassed;
   // Homing measures by its torque, so it must have it.
   const HomingLayout* homing = nullptr;
-  if (rest >= sizeof(HomedLinkageLayout))
-    homing = &core::as_array<HomedLinkageLayout>({section.data(), rest}, 1)[0].homing;
+  if (section.size() >= sizeof(HomedLinkageLayout) + sizeof(DeratingLayout))
+    homing = &core::as_array<HomedLinkageLayout>(section, 1)[0].homing;
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    const float continuous_Nm = derating.continuous_Nm[k], time_s = derating.time_s[k];
+    const float continuous_Nm = derating->continuous_Nm[k], time_s = derating->time_s[k];
     if (is_zero(continuous_Nm) && is_zero(time_s)) continue;
     const float largest_Nm = linkage.layout().max_torque_Nm[k];  // 0 of no joint
     const float least_Nm = homing != nullptr ? homing->torque_Nm[k] : 0.0f;
@@ -54,7 +52,7 @@ core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage) 
     has_one = true;
   }
   if (!has_one) return reject(kRuleDerating, 2 * kMaxJoints);
-  layout_ = &derating;
+  layout_ = derating;
   return core::kPassed;
 }
 

@@ -1,6 +1,5 @@
 #include "firmtouch/device/index_pulses.hpp"
 
-#include "firmtouch/core/bytes.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "firmtouch/device/samples.hpp"
 
@@ -82,16 +81,14 @@ template <>
 core::Verdict IndexPulses::open(core::Bytes section, const StoredLinkage& linkage,
                                 const StoredHoming& homing) {
   layout_ = nullptr;
-  const uint32_t rest = before(section).size();
-  if (rest == section.size()) return core::kPassed;
-  const IndexLayout& layout =
-      core::as_array<IndexLayout>({section.data() + rest, sizeof(IndexLayout)}, 1)[0];
+  const IndexLayout* const layout = find(section);
+  if (layout == nullptr) return core::kPassed;
   if (homing.layout().by != static_cast<uint32_t>(HomeBy::kStops)) return reject(kRuleIndex);
   IndexPulses found;
-  found.layout_ = &layout;
+  found.layout_ = layout;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     if (k >= linkage.layout().joints) {
-      if (!is_zero(layout.index_rad[k]) || !is_zero(layout.period_rad[k]))
+      if (!is_zero(layout->index_rad[k]) || !is_zero(layout->period_rad[k]))
         return reject(kRuleIndex, 1 + k);
       continue;
     }
@@ -102,7 +99,7 @@ core::Verdict IndexPulses::open(core::Bytes section, const StoredLinkage& linkag
   }
   if (!check_homing(settings_of(homing, found), linkage.joints({Estimator::kDifference, 1})))
     return reject(kRuleIndex, 1 + 2 * kMaxJoints);
-  layout_ = &layout;
+  layout_ = layout;
   return core::kPassed;
 }
 

@@ -1,6 +1,5 @@
 #include "firmtouch/device/second_encoders.hpp"
 
-#include "firmtouch/core/bytes.hpp"
 #include "firmtouch/device/rules.hpp"
 #include "firmtouch/device/samples.hpp"
 
@@ -40,24 +39,22 @@ core::Bytes SecondEncoders::before(core::Bytes section) {
 template <>
 core::Verdict SecondEncoders::open(core::Bytes section, const StoredLinkage& linkage) {
   layout_ = nullptr;
-  const uint32_t rest = before(section).size();
-  if (rest == section.size()) return core::kPassed;
-  const SecondEncodersLayout& second = core::as_array<SecondEncodersLayout>(
-      {section.data() + rest, sizeof(SecondEncodersLayout)}, 1)[0];
+  const SecondEncodersLayout* const second = find(section);
+  if (second == nullptr) return core::kPassed;
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    if (is_zero(second.counts_per_rad[k])) continue;
-    const float scale = size(second.counts_per_rad[k]);
+    if (is_zero(second->counts_per_rad[k])) continue;
+    const float scale = size(second->counts_per_rad[k]);
     if (k >= linkage.layout().joints || !(scale >= 1.0f && scale <= kMaxSecondCountsPerRad))
       return reject(kRuleSecondEncoder, k);
-    const float within = second.within_rad * scale;
-    if (!(within >= kMinWithin_counts + size(ratio_of(second, linkage.layout(), k)) &&
+    const float within = second->within_rad * scale;
+    if (!(within >= kMinWithin_counts + size(ratio_of(*second, linkage.layout(), k)) &&
           within <= kMaxWithin_counts))
       return reject(kRuleSecondEncoder, kMaxJoints + k);
     has_one = true;
   }
   if (!has_one) return reject(kRuleSecondEncoder, 2 * kMaxJoints);
-  layout_ = &second;
+  layout_ = second;
   return core::kPassed;
 }
 

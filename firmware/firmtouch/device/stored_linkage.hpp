@@ -44,6 +44,14 @@ class FurtherPart : public StoredPart<Layout> {
   /// Proves it. It is open only where the section has it and the verdict is passed. The bytes must
   /// outlive it. Pre: `linkage` and `needed` are open, of this section. Bounds: constant.
   core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Needed&... needed);
+
+ private:
+  // Null: the section has none. Aligned, as the linkage before it is.
+  static const Layout* find(core::Bytes section) {
+    const uint32_t rest = before(section).size();
+    const void* const behind = section.data() + rest;
+    return rest == section.size() ? nullptr : static_cast<const Layout*>(behind);
+  }
 };
 
 /// Proves a section of type kLinkageSection; `to` is open where the verdict is passed. The bytes
