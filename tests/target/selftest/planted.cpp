@@ -34,35 +34,27 @@ void move(Joint& joint, float force_N) {
   joint.position += joint.velocity * kTick_s * kCounts_per_m;
 }
 
-void follow(const char* prompt) {
-  using selftest::Prompt;
-  uint32_t what = 0;
-  while (what < static_cast<uint32_t>(Prompt::kCount) && prompt != selftest::kPrompts[what]) ++what;
-  switch (static_cast<Prompt>(what)) {
-    case Prompt::kCloseEnable:
-    case Prompt::kLetGo:
-      g_lines |= hal::kMotorsEnable;
-      return;
-    case Prompt::kPressStop:
-      g_lines |= hal::kMotorsEmergencyStop;
-      return;
-    case Prompt::kReleaseStop:
-      g_lines &= ~hal::kMotorsEmergencyStop;
-      return;
-    case Prompt::kBreakDrive:
-      g_lines |= hal::kMotorsDriveFault;
-      return;
-    case Prompt::kMendDrive:
-      g_lines &= ~hal::kMotorsDriveFault;
-      return;
-    case Prompt::kTurnJoint1:
-    case Prompt::kTurnJoint2:
-    case Prompt::kTurnJoint3:
-      g_turned = static_cast<int32_t>(what) - static_cast<int32_t>(Prompt::kTurnJoint1);
-      return;
-    default:
-      return;
-  }
+using selftest::Prompt;
+
+// What the person does to the motors' lines.
+struct Act {
+  Prompt at;
+  uint32_t sets, clears;
+};
+constexpr Act kActs[] = {{Prompt::kCloseEnable, hal::kMotorsEnable, 0},
+                         {Prompt::kLetGo, hal::kMotorsEnable, 0},
+                         {Prompt::kPressStop, hal::kMotorsEmergencyStop, 0},
+                         {Prompt::kReleaseStop, 0, hal::kMotorsEmergencyStop},
+                         {Prompt::kBreakDrive, hal::kMotorsDriveFault, 0},
+                         {Prompt::kMendDrive, 0, hal::kMotorsDriveFault}};
+
+void follow(const char* text) {
+  const auto is = [&](Prompt at) { return text == selftest::kPrompts[static_cast<uint32_t>(at)]; };
+  for (const Act& act : kActs)
+    if (is(act.at)) g_lines = (g_lines | act.sets) & ~act.clears;
+  if (is(Prompt::kTurnJoint1)) g_turned = 0;
+  if (is(Prompt::kTurnJoint2)) g_turned = 1;
+  if (is(Prompt::kTurnJoint3)) g_turned = 2;
 }
 
 }  // namespace
