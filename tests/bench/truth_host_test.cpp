@@ -9,7 +9,6 @@
 #include "bench/problem.hpp"
 #include "harness/test.hpp"
 #include "mesh/brute_force.hpp"
-#include "surface/make/make_part.hpp"
 
 namespace {
 
@@ -25,9 +24,7 @@ void check_truth(const bench::Model& model, size_t count) {
   CHECK_EQ(truth.unknown_sides, 0u);
 }
 
-bench::Model small_part() {
-  return bench::model_of(tools::make_part(1, 2000), "part", "", bench::Sides::kSigned);
-}
+bench::Model small_part() { return bench::demo_part(bench::Sides::kSigned, 2000); }
 
 }  // namespace
 

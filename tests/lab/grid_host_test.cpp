@@ -9,22 +9,14 @@
 #include "lab/orders/orders.hpp"
 #include "lab/trials.hpp"
 
-namespace {
-
 using namespace firmtouch;       // NOLINT: a test file
 using namespace firmtouch::lab;  // NOLINT
 
-const Model& part() {
-  static const Model model = demo_part(Sides::kSigned, 2000);
-  return model;
-}
-
-}  // namespace
-
 TEST(VoxelsFillTheCubeAboutTheModel) {
-  const std::vector<math::Vec3> points = voxels(part(), 10);
+  const Model part = demo_part(Sides::kSigned, 2000);
+  const std::vector<math::Vec3> points = voxels(part, 10);
   CHECK_EQ(points.size(), size_t{1000});
-  const mesh::Head& head = part().view.head();
+  const mesh::Head& head = part.view.head();
   float side = 0;
   for (int k = 0; k < 3; ++k) side = std::fmax(side, head.high_m[k] - head.low_m[k]);
   const float first[3] = {points[0].x, points[0].y, points[0].z};
@@ -36,14 +28,15 @@ TEST(VoxelsFillTheCubeAboutTheModel) {
 }
 
 TEST(RaysPseudonormalsAndFirmware_GiveTheSameSigns) {
-  const Grown<orders::FloatKind> aligned(part().view);
-  const Grown<orders::OrientedKind> oriented(part().view);
+  const Model part = demo_part(Sides::kSigned, 2000);
+  const Grown<orders::FloatKind> aligned(part.view);
+  const Grown<orders::OrientedKind> oriented(part.view);
   std::vector<orders::Pending> waiting(orders::kQueueBoxes + orders::kStackBoxes);
   size_t inside_count = 0;
-  for (const math::Vec3& p_m : voxels(part(), 12)) {
+  for (const math::Vec3& p_m : voxels(part, 12)) {
     mesh::Hint hint;
     const bool inside =
-        mesh::closest_point(part().view, p_m, query::kUnlimited, hint).certificate.sign < 0;
+        mesh::closest_point(part.view, p_m, query::kUnlimited, hint).certificate.sign < 0;
     inside_count += inside;
     CHECK_EQ((orders::crossings(aligned.tree(), {p_m, kRayAlong}) & 1u) != 0, inside);
     CHECK_EQ((orders::crossings(oriented.tree(), {p_m, kRayAlong}) & 1u) != 0, inside);
@@ -53,7 +46,7 @@ TEST(RaysPseudonormalsAndFirmware_GiveTheSameSigns) {
                                 orders::Upper::kVertex, false>(
         oriented.tree(), p_m, {waiting.data(), static_cast<uint32_t>(waiting.size())}, ignored,
         nearest)));
-    CHECK_EQ(orders::is_inside(part().view, nearest), inside);
+    CHECK_EQ(orders::is_inside(part.view, nearest), inside);
   }
   CHECK(inside_count > 50 && inside_count < 1000);
 }
