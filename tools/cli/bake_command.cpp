@@ -9,6 +9,7 @@
 #include "cli/cpp_source.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
+#include "cli/hull_arguments.hpp"
 #include "firmtouch/asset/opening.hpp"
 
 namespace firmtouch::cli {
@@ -75,7 +76,7 @@ Command bake_command() {
        0, SIZE_MAX, run_bake},
       "Bakes meshes, curves and splines into one asset, proven with the firmware's own decoder.",
       kInputs,
-      with_model_options(
+      with_model_options(with_hull_options(
           {{"-o", "FILE", "the asset to write; -: to stdout"},
            {"--unsigned", nullptr, "meshes without inside and outside: distance only; may be open"},
            {"--fast", nullptr,
@@ -96,11 +97,6 @@ Command bake_command() {
            {"--cpp", "FILE", "the asset as a C++ source, too"},
            {"--hull-faces", "N",
             "meshes get a progressive hull, at its coarsest of at most N faces: enclosing, proven"},
-           {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
-           {"--max-valence", "N", "faces around a hull's vertex, at most 31 (default 12)"},
-           {"--compactness", "R",
-            "share of the faces' compactness that a collapse leaves (default 0.8)"},
-           {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
            {"--no-tree", nullptr,
             "with --hull-faces: nothing for distances, only hull queries and a third of the bytes"},
            {"--keep-triangles", nullptr,
@@ -122,7 +118,7 @@ Command bake_command() {
            {"--catalogue", "LIST", "bakes what each line of LIST says"},
            {"--shard", "I/N", "of a catalogue: every Nth line only, from the Ith on"},
            {"--jobs", "N", "of a catalogue: threads (default: one a core)"},
-           {"--json", nullptr, "what was made, for programs, on stdout"}})};
+           {"--json", nullptr, "what was made, for programs, on stdout"}}))};
 }
 
 int run_bake(const Arguments& arguments) {

@@ -4,8 +4,10 @@
 
 namespace firmtouch::cli {
 
-/// The limits and the grid that the options of a command request. Fails (usage) on a value without
-/// meaning.
+/// The options of a command, and behind them those of every hull.
+std::vector<Option> with_hull_options(std::vector<Option> own);
+
+/// What these request. Fails (usage) on a value without meaning.
 tools::HullOptions hull_options(const Arguments& arguments);
 
 }  // namespace firmtouch::cli

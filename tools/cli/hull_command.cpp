@@ -113,6 +113,17 @@ std::vector<std::string> files_of(const Arguments& arguments, const std::vector<
 
 }  // namespace
 
+std::vector<Option> with_hull_options(std::vector<Option> own) {
+  static const std::vector<Option> kShared = {
+      {"--hull-grid", "22|16", "bits of a hull's coordinate (default 22)"},
+      {"--max-valence", "N", "faces around a hull's vertex, in an asset at most 31 (default 12)"},
+      {"--compactness", "R",
+       "share of the faces' compactness that a collapse leaves (default 0.8)"},
+      {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"}};
+  own.insert(own.end(), kShared.begin(), kShared.end());
+  return own;
+}
+
 tools::HullOptions hull_options(const Arguments& arguments) {
   tools::HullOptions options;
   options.limits.max_valence = arguments.count("--max-valence", 12, 3, 64);
@@ -132,7 +143,7 @@ Command hull_command() {
           R"(The model is checked and mended as for bake, and must be closed. Each piece coarsens by
 itself. Where no edge may collapse any more, the coarsest hull reached is written and
 the reason printed.)",
-          with_model_options(
+          with_model_options(with_hull_options(
               {{"-o", "FILE", "the hull (.obj .stl .off .ply); -: an .obj to stdout"},
                {"--faces", "N[,N...]",
                 "at most so many, even (4 and more); several, falling: FILE_N.obj each, one inside "
@@ -140,11 +151,7 @@ the reason printed.)",
                {"--strategy", "1|2|lazy",
                 "1: least volume first; 2: least volume about the middle of the "
                 "star; lazy (default): 1, looking again only at an edge's turn"},
-               {"--hull-grid", "22|16", "bits of a stored coordinate (default 22)"},
-               {"--max-valence", "N", "faces around a vertex (default 12)"},
-               {"--compactness", "R", "share of the faces' compactness that is left (default 0.8)"},
-               {"--max-deviation-deg", "A", "of a face's normal in one collapse (default 45)"},
-               {"--json", nullptr, "what was made, for programs, on stdout"}})};
+               {"--json", nullptr, "what was made, for programs, on stdout"}}))};
 }
 
 int run_hull(const Arguments& arguments) {
