@@ -29,13 +29,8 @@ uint32_t now = 0;
 // The tool at an angle of the half circle, so far out of it. `command`: 1 + a parameter.
 record::TickOutput tick(float angle_rad, float out_m, uint32_t command = 0, float value = 0) {
   const float from_axis_m = kRadius_m + out_m;
-  record::TickInput input{};
-  input.tick = now;
-  input.clock_us = now * 1000;
-  // 100 counts a millimetre: the initial value of counts_per_metre_x, _y, _z.
-  input.encoder_counts[0] = static_cast<int32_t>(-from_axis_m * math::cosine(angle_rad) * 100000);
-  input.encoder_counts[2] = static_cast<int32_t>(from_axis_m * math::sine(angle_rad) * 100000);
-  if (now++ > 0) input.flags = record::kFlagEnable;
+  record::TickInput input = input_at(
+      now++, {-from_axis_m * math::cosine(angle_rad), 0, from_axis_m * math::sine(angle_rad)});
   input.command = command;
   input.command_value = value;
   record::TickOutput output;

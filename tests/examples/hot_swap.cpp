@@ -24,13 +24,9 @@ Swapping controller, at_desk;
 
 // Down onto the top, 20 mm high, 2 mm deep, and 1.5 mm more after the swap in tick 1200.
 record::TickInput input_of(uint32_t tick) {
-  record::TickInput input{};
-  input.tick = tick;
-  input.clock_us = tick * 1000;
   float height_m = 0.031f - 0.00001f * static_cast<float>(tick < 1000 ? tick : 1000);
   if (tick > 1500) height_m -= 0.00001f * static_cast<float>(tick < 1650 ? tick - 1500 : 150);
-  input.encoder_counts[2] = static_cast<int32_t>(height_m * 100000.0f);
-  if (tick > 1) input.flags = record::kFlagEnable;
+  record::TickInput input = input_at(tick, {0, 0, height_m});
   if (tick == 0) {
     input.command = 1 + params::row_of(Swapping::kTable, params::kSlewLimit);
     input.command_value = kStep_N * 1000.0f;

@@ -17,8 +17,7 @@ extern "C" const unsigned two_materials_fta_size;
 
 namespace {
 
-constexpr float kCountsPerMetre = 100000.0f;  // the initial value of counts_per_metre_x, _y, _z
-constexpr float kTool_N_per_m = 800.0f;       // the initial value of contact_stiffness
+constexpr float kTool_N_per_m = 800.0f;  // the initial value of contact_stiffness
 constexpr float kBone_N_per_m = 3000.0f, kSkin_N_per_m = 400.0f;  // as in two_materials.txt
 constexpr float kDeep_m = 0.002f, kGroove_m = 0.0001f;
 
@@ -29,14 +28,8 @@ float least_N = 0;         // over the skin
 record::TickOutput output;
 
 void tick(float x_m, float z_m) {
-  record::TickInput input{};
-  input.tick = now;
-  input.clock_us = now * 1000;
-  input.encoder_counts[0] = static_cast<int32_t>(x_m * kCountsPerMetre);
-  input.encoder_counts[2] = static_cast<int32_t>(z_m * kCountsPerMetre);
-  if (now++ > 0) input.flags = record::kFlagEnable;  // the motors start after it was seen low
   const float before_N = output.force_N[2];
-  controller.tick(input, output);
+  controller.tick(input_at(now++, {x_m, 0, z_m}), output);
   const float step_N = output.force_N[2] - before_N;
   if (step_N > largest_step_N) largest_step_N = step_N;
   if (-step_N > largest_step_N) largest_step_N = -step_N;

@@ -26,12 +26,8 @@ record::Ring<record::TickRecord, 512> ring;
 
 // A hand that taps on the block, 5 times a second, and turns its stiffness down meanwhile.
 record::TickInput input_of(uint32_t tick) {
-  record::TickInput input{};
-  input.tick = tick;
-  input.clock_us = tick * 1000;
   const float height_m = 0.0222f + 0.002f * math::cosine(0.0314f * static_cast<float>(tick));
-  input.encoder_counts[2] = static_cast<int32_t>(height_m * 100000.0f);
-  if (tick > 0) input.flags = record::kFlagEnable;
+  record::TickInput input = input_at(tick, {0, 0, height_m});
   if (tick == 250) {
     input.command = 1 + params::row_of(MeshController::kTable, params::kContactStiffness);
     input.command_value = 400.0f;

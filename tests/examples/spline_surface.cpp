@@ -19,21 +19,13 @@ namespace {
 constexpr float kCrest_m = 0.05f;    // radius of the ring's middle circle
 constexpr float kTop_m = 0.02f;      // height of the crest: the radius of its tube
 constexpr float kRadius_m = 0.003f;  // of the tool, the initial value of tool_radius_m
-constexpr float kCountsPerMetre = 100000.0f;
 
 Controller<Surfaces<SplineSurface>> controller;
 uint32_t now = 0;
 
 record::TickOutput tick(math::Vec3 position_m) {
-  record::TickInput input{};
-  input.tick = now;
-  input.clock_us = now * 1000;
-  input.encoder_counts[0] = static_cast<int32_t>(position_m.x * kCountsPerMetre);
-  input.encoder_counts[1] = static_cast<int32_t>(position_m.y * kCountsPerMetre);
-  input.encoder_counts[2] = static_cast<int32_t>(position_m.z * kCountsPerMetre);
-  if (now++ > 0) input.flags = record::kFlagEnable;
   record::TickOutput output;
-  controller.tick(input, output);
+  controller.tick(input_at(now++, position_m), output);
   show(output);
   return output;
 }
