@@ -65,24 +65,12 @@ FIRMTOUCH_LANES Lanes choose(const LaneMask& mask, const Lanes& yes, const Lanes
   }
   return result;
 }
-// The processor's own maximum and minimum give the second where neither is the larger or smaller.
+// One instruction each, the processor's own: `a` where neither is the larger or smaller.
 FIRMTOUCH_LANES Lanes larger(const Lanes& a, const Lanes& b) {
-#if defined(__AVX2__)
-  Lanes result;
-  result.part[0] = __builtin_ia32_maxps256(b.part[0], a.part[0]);
-  return result;
-#else
-  return choose(a < b, b, a);
-#endif
+  return each_part(a, b, [](const auto& x, const auto& y, auto& to) { to = x < y ? y : x; });
 }
 FIRMTOUCH_LANES Lanes smaller(const Lanes& a, const Lanes& b) {
-#if defined(__AVX2__)
-  Lanes result;
-  result.part[0] = __builtin_ia32_minps256(a.part[0], b.part[0]);
-  return result;
-#else
-  return choose(a < b, a, b);
-#endif
+  return each_part(a, b, [](const auto& x, const auto& y, auto& to) { to = x < y ? x : y; });
 }
 FIRMTOUCH_LANES Lanes square_root(const Lanes& a) {
 #if defined(__AVX2__)
