@@ -14,8 +14,6 @@ namespace {
 constexpr double kMaxHeat = 17. / 16;
 constexpr float kContinuous_Nm = 0.1f, kTime_s = 5, kTick_s = 1e-3f;
 
-double wide(float a) { return static_cast<double>(a); }
-
 // exp(-a), 0 <= a < 0.1
 double decay(double a) { return 1 - a * (1 - a / 2 * (1 - a / 3 * (1 - a / 4))); }
 
@@ -27,7 +25,7 @@ struct Motors {
 
   explicit Motors(float continuous_Nm = kContinuous_Nm, float time_s = kTime_s,
                   float tick_s = kTick_s)
-      : fall(decay(wide(tick_s) / wide(time_s))), continuous_Nm_(continuous_Nm) {
+      : fall(decay(double{tick_s} / double{time_s})), continuous_Nm_(continuous_Nm) {
     CHECK(servo::guard_set_limits(state, {8, 5000, tick_s}));
     servo::set_heat(heat, {continuous_Nm, continuous_Nm / 2, 0}, {time_s, time_s * 2, 0});
   }
@@ -85,9 +83,9 @@ TEST(GuardOfHeat_EachMotorHasItsOwn) {
   while (ticks < 100000 && motors.pass(1, -2 * kContinuous_Nm)) ++ticks;
   double x = 1;  // of four times its continuous torque
   for (uint32_t tick = 0; tick < ticks; ++tick)
-    x = 16 + (x - 16) * decay(wide(kTick_s) / wide(2 * kTime_s));
+    x = 16 + (x - 16) * decay(double{kTick_s} / double{2 * kTime_s});
   CHECK_LE(x, kMaxHeat * 1.002);
-  CHECK_LE(kMaxHeat * 0.998, x + 16 * wide(kTick_s) / wide(2 * kTime_s));
+  CHECK_LE(kMaxHeat * 0.998, x + 16 * double{kTick_s} / double{2 * kTime_s});
   check_trips(motors);
 }
 
@@ -137,7 +135,7 @@ TEST(GuardOfHeat_LongTicks_HeatNoFasterThanABackwardStep) {
     CHECK_LE(cold, 1e-4);
     CHECK(motors.pass(1));
     const double share = static_cast<double>(motors.heat.value.heat[0]) / hot - cold;
-    const double a = wide(tick_s) / 0.125;
+    const double a = double{tick_s} / 0.125;
     CHECK_LE(share, a / (1 + a));
     if (tick_s < 0.03f) CHECK_LE(a * (1 - a) * 0.998, share);
   }

@@ -21,8 +21,6 @@ using namespace firmtouch;  // NOLINT: a test file
 using tools::Point;
 
 using firmtouch::test::is_long;
-double wide(float value) { return static_cast<double>(value); }
-
 double reflected(double x, double low, double high) {
   const double span = high - low;
   double at = std::fmod(std::fabs(x - low), 2 * span);
@@ -42,9 +40,9 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
   spline::Hint jumping, going, banded;
   double low[3], high[3], at[3], speed[3] = {0, 0, 0};
   for (int k = 0; k < 3; ++k) {
-    const double side = wide(head.high_m[k]) - wide(head.low_m[k]) + 0.2 * report.extent_m;
-    low[k] = wide(head.low_m[k]) - 0.25 * side;
-    high[k] = wide(head.high_m[k]) + 0.25 * side;
+    const double side = double{head.high_m[k]} - double{head.low_m[k]} + 0.2 * report.extent_m;
+    low[k] = double{head.low_m[k]} - 0.25 * side;
+    high[k] = double{head.high_m[k]} + 0.25 * side;
     at[k] = 0.5 * (low[k] + high[k]);
   }
   uint32_t wrong = 0, false_bounds = 0, inexact = 0, short_bands = 0;
@@ -52,8 +50,8 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
     const spline::Closest c = closest_point(view, tools::to_vec3(p), query::kUnlimited, hint);
     const spline_test::Interval d = exact.distance(tools::to_point(tools::to_vec3(p)));
     const double lo = static_cast<double>(d.lo), hi = static_cast<double>(d.hi);
-    wrong += wide(c.distance_m) <= hi + unit && wide(c.distance_m) >= lo - unit ? 0u : 1u;
-    false_bounds += wide(c.certificate.lower_m) <= lo ? 0u : 1u;
+    wrong += double{c.distance_m} <= hi + unit && double{c.distance_m} >= lo - unit ? 0u : 1u;
+    false_bounds += double{c.certificate.lower_m} <= lo ? 0u : 1u;
     inexact += c.certificate.exact ? 0u : 1u;
     return d;
   };
@@ -64,12 +62,13 @@ void run(const tools::SplineModel& model, uint32_t seed, uint32_t queries) {
     const query::Budget budget{work, static_cast<float>(hi * random.between(-0.1, 2.0))};
     const spline::Closest c = closest_point(view, tools::to_vec3(p), budget, banded);
     const bool is_exact = c.certificate.exact;
-    wrong +=
-        wide(c.distance_m) >= lo - unit && !(is_exact && wide(c.distance_m) > hi + unit) ? 0u : 1u;
-    false_bounds += wide(c.certificate.lower_m) <= lo ? 0u : 1u;
+    wrong += double{c.distance_m} >= lo - unit && !(is_exact && double{c.distance_m} > hi + unit)
+                 ? 0u
+                 : 1u;
+    false_bounds += double{c.certificate.lower_m} <= lo ? 0u : 1u;
     if (work != UINT32_MAX || is_exact) return;
-    short_bands += wide(c.certificate.lower_m) >= wide(budget.band_m) - unit ? 0u : 1u;
-    inexact += wide(budget.band_m) > hi ? 1u : 0u;
+    short_bands += double{c.certificate.lower_m} >= double{budget.band_m} - unit ? 0u : 1u;
+    inexact += double{budget.band_m} > hi ? 1u : 0u;
   };
   for (uint32_t i = 0; i < queries; ++i) {
     check_at({random.between(low[0], high[0]), random.between(low[1], high[1]),

@@ -15,8 +15,6 @@ namespace {
 namespace spline = firmtouch::spline;
 namespace tools = firmtouch::tools;
 
-double wide(float value) { return static_cast<double>(value); }
-
 // Of a stored piece at s, t, from its coefficients.
 tools::Point point_of(const spline::View& view, const spline::Piece& piece, double s, double t) {
   double at[3];
@@ -51,14 +49,14 @@ void check_at(const tools::SplineModel& model, uint32_t seed) {
     const double h = 0.05;
     const double x = random.between(2 * h - 1, 1 - 2 * h), y = random.between(2 * h - 1, 1 - 2 * h);
     const double size = random.below(2) == 0 ? 0.02 : 2;
-    const tools::Point on = point_of(view, piece, wide(part.middle_u), wide(part.middle_v));
+    const tools::Point on = point_of(view, piece, double{part.middle_u}, double{part.middle_v});
     const tools::Point p =
         on + tools::Point{random.bell(), random.bell(), random.bell()} * (size * report.extent_m);
     const auto half_square = [&](double step) {
       const tools::Point off =
-          point_of(
-              view, piece, wide(part.middle_u) + wide(part.half_u) * (x + step * eu),
-              view.is_surface() ? wide(part.middle_v) + wide(part.half_v) * (y + step * ev) : 0) -
+          point_of(view, piece, double{part.middle_u} + double{part.half_u} * (x + step * eu),
+                   view.is_surface() ? double{part.middle_v} + double{part.half_v} * (y + step * ev)
+                                     : 0) -
           p;
       return 0.5 * dot(off, off);
     };
@@ -70,10 +68,10 @@ void check_at(const tools::SplineModel& model, uint32_t seed) {
     double bound = 0;
     for (uint32_t k = 0; k < (view.is_surface() ? 5u : 1u); ++k) {
       // Returned as the piece's s and t.
-      const double each_way = std::pow(wide(part.half_u), order - k) *
-                              (view.is_surface() ? std::pow(wide(part.half_v), k) : 1);
+      const double each_way = std::pow(double{part.half_u}, order - k) *
+                              (view.is_surface() ? std::pow(double{part.half_v}, k) : 1);
       const double of =
-          (wide(bounds.fixed_m2[k]) + wide(bounds.turning_m[k]) * distance) * each_way;
+          (double{bounds.fixed_m2[k]} + double{bounds.turning_m[k]} * distance) * each_way;
       const double times = view.is_surface() ? choose[k] : 1;
       bound += times * of * std::pow(std::fabs(eu), order - k) * std::pow(std::fabs(ev), k);
     }

@@ -24,8 +24,6 @@ using firmtouch::test::is_long;
 // No query here needs as many; one that went on for ever would say so.
 constexpr Budget kPlenty{300000};
 
-double wide(float value) { return static_cast<double>(value); }
-
 struct Baked : spline_test::BakedModel {
   ExactDistance exact;
   Hint warm;
@@ -51,7 +49,7 @@ Truth truth_of(const ExactDistance& exact, const tools_point& p) {
 void check_answer(const Baked& baked, const Truth& truth, const spline::Closest& c) {
   const double unit = (baked.report.is_rational ? 1e-6 : 4e-7) * baked.report.extent_m;
   const double rounding = 9e-7 * truth.hi;
-  const double reported = wide(c.distance_m), lower = wide(c.certificate.lower_m);
+  const double reported = double{c.distance_m}, lower = double{c.certificate.lower_m};
   CHECK_LE(lower, truth.lo);
   CHECK_GE(reported, truth.lo - unit - rounding);
   if (!c.certificate.exact) return;
@@ -294,8 +292,8 @@ TEST(AnUlpAboutEveryFaceOfALeafNothingIsWrong) {
       const spline::Piece& piece = baked->view.pieces()[k];
       for (int i = 0; i <= (is_surface ? 2 : 8); ++i) {
         const double u =
-            wide(piece.middle_u) + wide(piece.half_u) * (i * (is_surface ? 1 : 0.25) - 1);
-        const double v = wide(piece.middle_v) + wide(piece.half_v) * 0.5;
+            double{piece.middle_u} + double{piece.half_u} * (i * (is_surface ? 1 : 0.25) - 1);
+        const double v = double{piece.middle_v} + double{piece.half_v} * 0.5;
         const tools_point at = is_surface ? point_at(baked->model.surfaces[0], u, v)
                                           : point_at(baked->model.curves[0], u);
         check_about(*baked, at);
@@ -306,9 +304,9 @@ TEST(AnUlpAboutEveryFaceOfALeafNothingIsWrong) {
     // And about the corners of the box of all.
     const spline::Head& head = baked->view.head();
     for (int corner = 0; corner < 8; ++corner)
-      check_about(*baked, {wide((corner & 1) != 0 ? head.high_m[0] : head.low_m[0]),
-                           wide((corner & 2) != 0 ? head.high_m[1] : head.low_m[1]),
-                           wide((corner & 4) != 0 ? head.high_m[2] : head.low_m[2])});
+      check_about(*baked, {double{(corner & 1) != 0 ? head.high_m[0] : head.low_m[0]},
+                           double{(corner & 2) != 0 ? head.high_m[1] : head.low_m[1]},
+                           double{(corner & 4) != 0 ? head.high_m[2] : head.low_m[2]}});
   }
 }
 

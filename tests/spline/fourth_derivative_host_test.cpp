@@ -68,12 +68,10 @@ tools::SplineSurface surface_of(size_t n, const std::vector<Term>& terms) {
   return surface;
 }
 
-double wide(float value) { return static_cast<double>(value); }
-
 // The baker cuts pieces: a derivative by the stored piece's s and t of one by the whole surface's.
 double by_piece(const spline::Piece& piece, size_t k) {
-  return std::pow(2 * wide(piece.half_u), static_cast<double>(4 - k)) *
-         std::pow(2 * wide(piece.half_v), static_cast<double>(k));
+  return std::pow(2 * double{piece.half_u}, static_cast<double>(4 - k)) *
+         std::pow(2 * double{piece.half_v}, static_cast<double>(k));
 }
 
 // Reaches the truth, and less than twice that.
@@ -90,9 +88,10 @@ TEST(CurveBend_ReachesTheLowestFourthDerivative_OfACubic) {
     const BakedModel baked(of(curve_of(3, {{0, 1, 0, 1.0}, {0, 3, 0, -a}})));
     for (uint32_t i = 0; i < baked.view.pieces().size(); ++i) {  // each reaches the middle or less
       const spline::Piece& piece = baked.view.pieces()[i];
-      const bool is_middle = std::fabs(wide(piece.middle_u) - 0.5) <= wide(piece.half_u) * 1.001;
+      const bool is_middle =
+          std::fabs(double{piece.middle_u} - 0.5) <= double{piece.half_u} * 1.001;
       if (is_middle)
-        check_tight(wide(baked.view.curve_bends()[i].fixed_m2), 24 * a * by_piece(piece, 0));
+        check_tight(double{baked.view.curve_bends()[i].fixed_m2}, 24 * a * by_piece(piece, 0));
     }
   }
 }
@@ -102,7 +101,7 @@ TEST(CurveBend_TurnsAsFastAsTheFourthDerivative_OfAQuartic) {
   for (const double b : {0.01, 0.1}) {
     const BakedModel baked(of(curve_of(4, {{0, 1, 0, 1.0}, {1, 4, 0, b}})));
     for (uint32_t i = 0; i < baked.view.pieces().size(); ++i)
-      check_tight(wide(baked.view.curve_bends()[i].turning_m),
+      check_tight(double{baked.view.curve_bends()[i].turning_m},
                   24 * b * by_piece(baked.view.pieces()[i], 0));
   }
 }
@@ -116,9 +115,9 @@ TEST(PatchBend_ReachesTheLowestFourthDerivatives_OfABicubic) {
   for (uint32_t leaf = 0; leaf < baked.view.leaf_count(); ++leaf) {
     const spline::Piece& piece = baked.view.pieces()[baked.view.index_of(leaf).piece];
     for (uint32_t k = 0; k < 5; ++k)
-      most[k] =
-          std::fmax(most[k], wide(firmtouch::spline_test::bounds_of(baked.view, leaf).fixed_m2[k]) /
-                                 by_piece(piece, k));
+      most[k] = std::fmax(most[k],
+                          double{firmtouch::spline_test::bounds_of(baked.view, leaf).fixed_m2[k]} /
+                              by_piece(piece, k));
   }
   check_tight(most[0], 24 * a);
   check_tight(most[2], 4 * e);
@@ -134,7 +133,7 @@ TEST(PatchBend_TurnsAsFastAsTheFourthDerivatives_OfABiquartic) {
   for (uint32_t leaf = 0; leaf < baked.view.leaf_count(); ++leaf) {
     const spline::Piece& piece = baked.view.pieces()[baked.view.index_of(leaf).piece];
     for (uint32_t k = 0; k < 5; ++k)
-      check_tight(wide(firmtouch::spline_test::bounds_of(baked.view, leaf).turning_m[k]),
+      check_tight(double{firmtouch::spline_test::bounds_of(baked.view, leaf).turning_m[k]},
                   times[k] * b[k] * by_piece(piece, k));
   }
 }
@@ -147,9 +146,9 @@ TEST(Expansion_NeverBendsMoreThanTheCurve_AboutTheMiddle) {
   uint32_t ends = 0;
   for (uint32_t i = 0; i < view.pieces().size(); ++i) {
     const spline::Piece& piece = view.pieces()[i];
-    const double half = 2 * wide(piece.half_u);  // of the piece, by s
+    const double half = 2 * double{piece.half_u};  // of the piece, by s
     for (const float end : {-1.0f, 1.0f}) {
-      if (std::fabs(wide(piece.middle_u) + wide(piece.half_u * end) - 0.5) > 1e-6) continue;
+      if (std::fabs(double{piece.middle_u} + double{piece.half_u * end} - 0.5) > 1e-6) continue;
       ++ends;
       const spline::CurvePoint at = spline::evaluate(piece, view.coefficients().data(), end);
       const float speed2 = dot(at.d1, at.d1);
@@ -157,7 +156,7 @@ TEST(Expansion_NeverBendsMoreThanTheCurve_AboutTheMiddle) {
                                                  view.curve_bends()[i], view.head().loss_m);
       for (double d = 0.1; d <= 2; d += 0.1) {
         const double s = d * half, truth = std::pow(half * (1 - a * s * s), 2);
-        CHECK_LE(wide(f.bend_over(-end, static_cast<float>(d))), truth);
+        CHECK_LE(double{f.bend_over(-end, static_cast<float>(d))}, truth);
       }
     }
   }

@@ -14,8 +14,6 @@ using namespace spline_test;
 using math::Vec3;
 using query::kUnlimited;
 
-double wide(float value) { return static_cast<double>(value); }
-
 }  // namespace
 
 // Four sectors about a pole, which the path passes where all points about it are nearly equally
@@ -52,10 +50,10 @@ TEST(WarmAnswersEqualColdAnswers_AlongAPathPastAPole) {
       const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
       spline::Hint cold;
       const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
-      const double truth = wide(alone.distance_m);
+      const double truth = double{alone.distance_m};
       wrong +=
-          std::fabs(wide(warm.distance_m) - truth) <= 2.1e-6 * (baked.report.extent_m + truth) &&
-                  wide(warm.certificate.lower_m) <= truth
+          std::fabs(double{warm.distance_m} - truth) <= 2.1e-6 * (baked.report.extent_m + truth) &&
+                  double{warm.certificate.lower_m} <= truth
               ? 0u
               : 1u;
       inexact += warm.certificate.exact && alone.certificate.exact ? 0u : 1u;

@@ -23,8 +23,6 @@ using spline_test::BakedModel;
 using spline_test::of;
 
 int most_of(uint32_t seed) { return static_cast<int>(1 + seed % 3); }
-double wide(float value) { return static_cast<double>(value); }
-
 tools::SplineCurve flattened(tools::SplineCurve curve) {
   for (tools::ControlPoint& p : curve.points) p.z = 0;
   return curve;
@@ -74,9 +72,9 @@ void follow(const BakedModel& baked, tools::Random& random, int positions, Repor
       const spline::Closest warm = closest_point(baked.view, p, kUnlimited, hint);
       Hint cold;
       const spline::Closest alone = closest_point(baked.view, p, kUnlimited, cold);
-      const double truth = wide(alone.distance_m);
-      reported.wrong += std::fabs(wide(warm.distance_m) - truth) <= unit + 2e-6 * truth &&
-                                wide(warm.certificate.lower_m) <= truth
+      const double truth = double{alone.distance_m};
+      reported.wrong += std::fabs(double{warm.distance_m} - truth) <= unit + 2e-6 * truth &&
+                                double{warm.certificate.lower_m} <= truth
                             ? 0u
                             : 1u;
       reported.inexact += warm.certificate.exact ? 0u : 1u;
@@ -134,10 +132,10 @@ TEST(SafeSubtree_LeavesNothingNearerOutside_AfterAnyQueryOfCurves) {
           const float s = half * static_cast<float>(2 * at.index_u + 1) - 1.0f +
                           half * 0.25f * static_cast<float>(k);
           const Vec3 x = spline::evaluate(piece, view.coefficients().data(), s).x;
-          const double distance = std::hypot(wide(piece.origin_m[0]) + wide(x.x) - wide(p.x),
-                                             wide(piece.origin_m[1]) + wide(x.y) - wide(p.y),
-                                             wide(piece.origin_m[2]) + wide(x.z) - wide(p.z));
-          wrong += wide(hint.safe_subtree_m) > distance + 4e-7 * baked.report.extent_m ? 1u : 0u;
+          const double distance = std::hypot(double{piece.origin_m[0]} + double{x.x} - double{p.x},
+                                             double{piece.origin_m[1]} + double{x.y} - double{p.y},
+                                             double{piece.origin_m[2]} + double{x.z} - double{p.z});
+          wrong += double{hint.safe_subtree_m} > distance + 4e-7 * baked.report.extent_m ? 1u : 0u;
         }
       }
     }
@@ -217,8 +215,8 @@ TEST(PlanarCurve_AnswersTheSame_TurnedOutOfItsPlane) {
       const spline::Closest a = closest_point(flat.view, p, kUnlimited, hint);
       const spline::Closest b = closest_point(standing.view, {p.x, -p.z, p.y}, kUnlimited, other);
       CHECK(a.certificate.exact && b.certificate.exact);
-      CHECK_LE(std::fabs(wide(a.distance_m) - wide(b.distance_m)),
-               2e-6 * (flat.report.extent_m + wide(a.distance_m)));
+      CHECK_LE(std::fabs(double{a.distance_m} - double{b.distance_m}),
+               2e-6 * (flat.report.extent_m + double{a.distance_m}));
     }
   }
 }
@@ -251,12 +249,12 @@ TEST(Curves_AnswerAsEachAlone_WhenApart) {
       double truth = HUGE_VAL;
       for (const BakedModel& one : alone) {
         Hint cold;
-        truth = std::min(truth, wide(closest_point(one.view, p, kUnlimited, cold).distance_m));
+        truth = std::min(truth, double{closest_point(one.view, p, kUnlimited, cold).distance_m});
       }
       const spline::Closest c = closest_point(view, p, kUnlimited, hint);
       CHECK(c.certificate.exact);
-      CHECK_LE(std::fabs(wide(c.distance_m) - truth), 2e-6 * (baked.report.extent_m + truth));
-      CHECK_LE(wide(c.certificate.lower_m), truth * (1 + 1e-6));
+      CHECK_LE(std::fabs(double{c.distance_m} - truth), 2e-6 * (baked.report.extent_m + truth));
+      CHECK_LE(double{c.certificate.lower_m}, truth * (1 + 1e-6));
     }
   }
 }
@@ -295,12 +293,12 @@ TEST(Query_LeavesTheMiddle_OfAPieceThatTurnsBack) {
       double truth = HUGE_VAL;
       for (int k = 0; k <= 4000; ++k) {
         const tools::Point on = tools::point_at(curve, k / 4000.0);
-        truth = std::min(truth, std::hypot(on.x - wide(p.x), on.y - wide(p.y)));
+        truth = std::min(truth, std::hypot(on.x - double{p.x}, on.y - double{p.y}));
       }
       const spline::Closest c = closest_point(view, p, kUnlimited, hint);
       CHECK(c.certificate.exact);
-      CHECK_LE(wide(c.distance_m), truth + 1e-5);
-      CHECK_LE(wide(c.certificate.lower_m), truth);
+      CHECK_LE(double{c.distance_m}, truth + 1e-5);
+      CHECK_LE(double{c.certificate.lower_m}, truth);
     }
   }
 }
