@@ -17,35 +17,26 @@ using namespace firmtouch;  // NOLINT: a test file
 
 namespace {
 
-struct Stored {
-  device::LinkageLayout linkage;
-  device::CompensationLayout compensation;
-};
+using Stored = device_test::StoredWith<device::CompensationLayout>;
 
 // Of its two joints the second has no spring.
 Stored bar() {
   Stored to = {};
-  to.linkage = device_test::stored_bar(2200);
-  to.compensation.tag = device::kCompensationTag;
-  to.compensation.spring_Nm_per_rad[0] = 0.05f;
-  to.compensation.relaxed_rad[0] = 1.5f;
+  to.before = device_test::stored_bar(2200);
+  to.part.tag = device::kCompensationTag;
+  to.part.spring_Nm_per_rad[0] = 0.05f;
+  to.part.relaxed_rad[0] = 1.5f;
   return to;
 }
 
 using Opened = device_test::OpenedPart<device::Compensation, Stored>;
 
-void check_broken(const Stored& stored, uint32_t element) {
-  device_test::check_broken<device::Compensation>(stored, device::kRuleCompensation, element);
-}
-
 void check_broken(uint32_t joint, float spring, float relaxed_rad, uint32_t element) {
   Stored stored = bar();
-  stored.compensation.spring_Nm_per_rad[joint] = spring;
-  stored.compensation.relaxed_rad[joint] = relaxed_rad;
-  check_broken(stored, element);
+  stored.part.spring_Nm_per_rad[joint] = spring;
+  stored.part.relaxed_rad[joint] = relaxed_rad;
+  device_test::check_broken<device::Compensation>(stored, device::kRuleCompensation, element);
 }
-
-double wide(float a) { return static_cast<double>(a); }
 
 }  // namespace
 
@@ -78,17 +69,18 @@ TEST(CarriedFriction_EachWordIsBrokenAlone) {
                  {0, .01f, .5f, nan, 9}};
   for (const bool has_spring : {true, false}) {
     Stored stored = bar();
-    if (!has_spring) stored.compensation = {device::kCompensationTag, {}, {}, {}, 0, 0};
+    if (!has_spring) stored.part = {device::kCompensationTag, {}, {}, {}, 0, 0};
     for (const auto& broken : kBroken) {
       Stored each = stored;
-      each.compensation.friction_Nm[broken.joint] = broken.friction_Nm;
-      each.compensation.friction_share = broken.share;
-      each.compensation.friction_fade_rad_per_s = broken.fade;
-      check_broken(each, broken.element);
+      each.part.friction_Nm[broken.joint] = broken.friction_Nm;
+      each.part.friction_share = broken.share;
+      each.part.friction_fade_rad_per_s = broken.fade;
+      device_test::check_broken<device::Compensation>(each, device::kRuleCompensation,
+                                                      broken.element);
     }
-    stored.compensation.friction_Nm[1] = .3f;
-    stored.compensation.friction_share = .8f;
-    stored.compensation.friction_fade_rad_per_s = .1f;
+    stored.part.friction_Nm[1] = .3f;
+    stored.part.friction_share = .8f;
+    stored.part.friction_fade_rad_per_s = .1f;
     CHECK(Opened(stored).verdict.ok());
   }
 }
@@ -98,21 +90,21 @@ TEST(FrictionTorques_AreTheLaw_AndNeverAboveTheirShare) {
   test::Lcg random(7);
   for (int i = 0; i < 100000; ++i) {
     Stored stored = bar();
-    stored.compensation.friction_Nm[1] = random.between(1e-4f, .3f);
-    stored.compensation.friction_share = random.between(.01f, .8f);
-    stored.compensation.friction_fade_rad_per_s = random.between(.001f, 10);
+    stored.part.friction_Nm[1] = random.between(1e-4f, .3f);
+    stored.part.friction_share = random.between(.01f, .8f);
+    stored.part.friction_fade_rad_per_s = random.between(.001f, 10);
     const Opened opened(stored);
     CHECK(opened.verdict.ok());
     const float size = std::pow(10.0f, random.between(-8, 8));
     const float rate[3] = {size, i % 2 == 0 ? size : -size, size};
     float torque_Nm[3], still_Nm[3];
     friction_torques_Nm(opened.part, rate, torque_Nm);
-    const device::CompensationLayout& l = stored.compensation;
-    const double most_Nm = wide(l.friction_share) * wide(l.friction_Nm[1]);
-    const double law_Nm =
-        most_Nm * wide(rate[1]) / (std::fabs(wide(rate[1])) + wide(l.friction_fade_rad_per_s));
-    CHECK_LE(std::fabs(wide(torque_Nm[1]) - law_Nm), 4e-7 * most_Nm);
-    CHECK_LE(std::fabs(wide(torque_Nm[1])), most_Nm * (1 + 2e-7));
+    const device::CompensationLayout& l = stored.part;
+    const double most_Nm = double{l.friction_share} * double{l.friction_Nm[1]};
+    const double law_Nm = most_Nm * double{rate[1]} /
+                          (std::fabs(double{rate[1]}) + double{l.friction_fade_rad_per_s});
+    CHECK_LE(std::fabs(double{torque_Nm[1]} - law_Nm), 4e-7 * most_Nm);
+    CHECK_LE(std::fabs(double{torque_Nm[1]}), most_Nm * (1 + 2e-7));
     CHECK(std::fabs(torque_Nm[0]) + std::fabs(torque_Nm[2]) <= 0);
     const float none[3] = {};
     friction_torques_Nm(opened.part, none, still_Nm);
@@ -153,10 +145,10 @@ TEST(Compensation_ProgramsWithoutIt_RejectIt) {
     device::CompensationLayout compensation;
   };
   Redundant both = {};
-  both.linkage = bar().linkage;
+  both.linkage = bar().before;
   both.second.counts_per_rad[1] = 1300;
   both.second.within_rad = 0.005f;
-  both.compensation = bar().compensation;
+  both.compensation = bar().part;
   const core::Bytes bytes = test::bytes(&both, sizeof both);
   device::StoredLinkage linkage;
   device::StoredHoming homing;
@@ -172,22 +164,22 @@ TEST(SpringTorques_AreTheGradientOfTheirEnergy) {
     Stored stored = bar();
     float angle_rad[3] = {random.between(-7, 7), random.between(-7, 7), 0};
     for (int k = 0; k < 2; ++k) {
-      stored.compensation.spring_Nm_per_rad[k] = random.between(1e-4f, 2);
-      stored.compensation.relaxed_rad[k] = random.between(-7, 7);
+      stored.part.spring_Nm_per_rad[k] = random.between(1e-4f, 2);
+      stored.part.relaxed_rad[k] = random.between(-7, 7);
     }
     const Opened opened(stored);
     CHECK(opened.verdict.ok());
     const math::Vec3 torque = spring_torques_Nm(opened.part, angle_rad);
     const float torque_Nm[] = {torque.x, torque.y, torque.z};
     for (int k = 0; k < 2; ++k) {
-      const double stiffness = wide(stored.compensation.spring_Nm_per_rad[k]);
+      const double stiffness = double{stored.part.spring_Nm_per_rad[k]};
       const auto energy_J = [&](double at_rad) {
-        const double off_rad = at_rad - wide(stored.compensation.relaxed_rad[k]);
+        const double off_rad = at_rad - double{stored.part.relaxed_rad[k]};
         return 0.5 * stiffness * off_rad * off_rad;
       };
-      const double at_rad = wide(angle_rad[k]);
+      const double at_rad = double{angle_rad[k]};
       const double expected_Nm = (energy_J(at_rad - 1e-3) - energy_J(at_rad + 1e-3)) / 2e-3;
-      CHECK_LE(std::fabs(wide(torque_Nm[k]) - expected_Nm), 2e-6 * stiffness);
+      CHECK_LE(std::fabs(double{torque_Nm[k]} - expected_Nm), 2e-6 * stiffness);
     }
     CHECK_EQ(torque_Nm[2], 0.0f);
   }

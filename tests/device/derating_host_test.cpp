@@ -16,40 +16,27 @@ namespace {
 constexpr double kLargest_Nm = 0.3, kContinuous_Nm = 0.1, kTime_s = 5;
 constexpr float kTick_s = 1e-3f;
 
-struct Stored {
-  device::LinkageLayout linkage;
-  device::DeratingLayout derating;
-};
-struct StoredHomed {
-  device::HomedLinkageLayout homed;
-  device::DeratingLayout derating;
-};
+using Stored = device_test::StoredWith<device::DeratingLayout>;
+using StoredHomed = device_test::StoredWith<device::DeratingLayout, device::HomedLinkageLayout>;
 
 // Of its two motors the second has no thermal limit.
 Stored bar() {
   Stored to = {};
-  to.linkage = device_test::stored_bar(2200);
-  to.derating.continuous_Nm[0] = static_cast<float>(kContinuous_Nm);
-  to.derating.time_s[0] = static_cast<float>(kTime_s);
+  to.before = device_test::stored_bar(2200);
+  to.part.continuous_Nm[0] = static_cast<float>(kContinuous_Nm);
+  to.part.time_s[0] = static_cast<float>(kTime_s);
   return to;
 }
 
 template <class Section = Stored>
 using Opened = device_test::OpenedPart<device::Derating, Section>;
 
-template <class Section>
-void check_broken(const Section& stored, uint32_t element) {
-  device_test::check_broken<device::Derating>(stored, device::kRuleDerating, element);
-}
-
 void check_broken(uint32_t joint, float continuous_Nm, float time_s, uint32_t element) {
   Stored stored = bar();
-  stored.derating.continuous_Nm[joint] = continuous_Nm;
-  stored.derating.time_s[joint] = time_s;
-  check_broken(stored, element);
+  stored.part.continuous_Nm[joint] = continuous_Nm;
+  stored.part.time_s[joint] = time_s;
+  device_test::check_broken<device::Derating>(stored, device::kRuleDerating, element);
 }
-
-double wide(float a) { return static_cast<double>(a); }
 
 // A motor that gets what it wants, within the limit.
 struct Motor {
@@ -59,8 +46,8 @@ struct Motor {
   float torque_Nm[device::kMaxJoints] = {};
 
   explicit Motor(const Stored& stored = bar()) : opened(stored) {}
-  double heat() const { return wide(state.heat[0]); }
-  double limit_Nm() const { return wide(most_Nm[0]); }
+  double heat() const { return double{state.heat[0]}; }
+  double limit_Nm() const { return double{most_Nm[0]}; }
   void step(double wanted_Nm, float dt_s = kTick_s) {
     device::heat(state, opened.part, opened.linkage, torque_Nm, dt_s, most_Nm);
     const double size = std::fmin(std::fabs(wanted_Nm), limit_Nm());
@@ -71,7 +58,7 @@ struct Motor {
   double run(double wanted_Nm, Until until) {
     for (uint32_t ticks = 0; ticks < 1000000; ++ticks) {
       step(wanted_Nm);
-      if (until()) return ticks * wide(kTick_s);
+      if (until()) return ticks * double{kTick_s};
     }
     return HUGE_VAL;
   }
@@ -103,12 +90,12 @@ TEST(Derating_EachWordIsBrokenAlone) {
 
 TEST(Derating_HomingHasItsTorque) {
   StoredHomed stored = {};
-  stored.homed.linkage = bar().linkage;
-  stored.derating = bar().derating;
-  stored.homed.homing.torque_Nm[0] = static_cast<float>(kContinuous_Nm);
+  stored.before.linkage = bar().before;
+  stored.part = bar().part;
+  stored.before.homing.torque_Nm[0] = static_cast<float>(kContinuous_Nm);
   CHECK(Opened<StoredHomed>(stored).verdict.ok());
-  stored.homed.homing.torque_Nm[0] = .1001f;
-  check_broken(stored, 0);
+  stored.before.homing.torque_Nm[0] = .1001f;
+  device_test::check_broken<device::Derating>(stored, device::kRuleDerating, 0);
 }
 
 // Linkage alone, with second encoders, homed, and this with either kind of encoders.
@@ -125,7 +112,7 @@ TEST(Derating_EveryLengthIsOfOneCompositionOnly) {
 
 TEST(Derating_ASectionWithoutIt_IsPassedAndNotDerated) {
   Stored stored = bar();
-  const core::Bytes alone(reinterpret_cast<const uint8_t*>(&stored), sizeof stored.linkage);
+  const core::Bytes alone(reinterpret_cast<const uint8_t*>(&stored), sizeof stored.before);
   device::StoredLinkage linkage;
   device::Derating derating;
   CHECK_EQ(open(alone, linkage).rule, 0u);
@@ -139,9 +126,9 @@ TEST(Derating_AfterAResetItIsHot_AndCoolsInClosedForm) {
   motor.step(0);
   CHECK_LE(std::fabs(motor.limit_Nm() - kContinuous_Nm), .02 * kContinuous_Nm);
   const double cool_s = motor.run(0, [&] { return motor.limit_Nm() >= kLargest_Nm * .999999; });
-  CHECK_LE(std::fabs(cool_s - kTime_s * std::log(4. / 3)), 3 * wide(kTick_s));
+  CHECK_LE(std::fabs(cool_s - kTime_s * std::log(4. / 3)), 3 * double{kTick_s});
   const double more_s = motor.run(0, [&] { return motor.heat() <= .01; });
-  CHECK_LE(std::fabs(more_s + cool_s - kTime_s * std::log(100.)), 4 * wide(kTick_s));
+  CHECK_LE(std::fabs(more_s + cool_s - kTime_s * std::log(100.)), 4 * double{kTick_s});
 }
 
 // From cold a constant torque t is whole until x = 1 - (t - c) / (m - c) / 4, after
@@ -155,7 +142,7 @@ TEST(Derating_ConstantTorque_IsWholeForTheTimeOfItsClosedForm) {
     const double at = 1 - (torque_Nm - kContinuous_Nm) / (kLargest_Nm - kContinuous_Nm) / 4;
     const double ratio = torque_Nm / kContinuous_Nm;
     const double closed_s = kTime_s * std::log(ratio * ratio / (ratio * ratio - at));
-    CHECK_LE(std::fabs(whole_s - closed_s), 3e-4 * closed_s + 2 * wide(kTick_s));
+    CHECK_LE(std::fabs(whole_s - closed_s), 3e-4 * closed_s + 2 * double{kTick_s});
     CHECK_LE(whole_s, kTime_s * std::log(ratio * ratio / (ratio * ratio - 1)) + 2e-3);
     double most = 0, last_Nm = motor.limit_Nm(), step_Nm = 0;
     motor.run(torque_Nm, [&] {
@@ -165,7 +152,7 @@ TEST(Derating_ConstantTorque_IsWholeForTheTimeOfItsClosedForm) {
       return motor.limit_Nm() < kContinuous_Nm * 1.00001;
     });
     CHECK_LE(most, 1 + 4e-7);
-    CHECK_LE(step_Nm, (kLargest_Nm - kContinuous_Nm) * wide(kTick_s) / .025);
+    CHECK_LE(step_Nm, (kLargest_Nm - kContinuous_Nm) * double{kTick_s} / .025);
   }
 }
 
@@ -175,8 +162,8 @@ TEST(Derating_TheContinuousTorque_IsNeverDerated) {
     motor.step(kContinuous_Nm);
     CHECK_LE(static_cast<double>(static_cast<float>(kContinuous_Nm)), motor.limit_Nm());
   }
-  CHECK_LE(wide(motor.most_Nm[1]), kLargest_Nm + 1e-7);  // no thermal limit
-  CHECK_GE(wide(motor.most_Nm[1]), kLargest_Nm - 1e-7);
+  CHECK_LE(double{motor.most_Nm[1]}, kLargest_Nm + 1e-7);  // no thermal limit
+  CHECK_GE(double{motor.most_Nm[1]}, kLargest_Nm - 1e-7);
 }
 
 // The exact solution of a tick in which the torque is held, in double.
@@ -187,9 +174,9 @@ TEST(Derating_ARandomDemand_FollowsTheModelInDouble) {
   const double largest = kLargest_Nm / kContinuous_Nm;
   for (int tick = 0; tick < 200000; ++tick) {
     if (tick % 500 == 0)
-      wanted_Nm = wide(random.between(-1, 1)) * (tick / 20000 % 2 == 0 ? .5 : .15);
+      wanted_Nm = double{random.between(-1, 1)} * (tick / 20000 % 2 == 0 ? .5 : .15);
     motor.step(wanted_Nm);
-    x = held * held + (x - held * held) * std::exp(-wide(kTick_s) / kTime_s);
+    x = held * held + (x - held * held) * std::exp(-double{kTick_s} / kTime_s);
     held = std::fmin(std::fabs(wanted_Nm) / kContinuous_Nm, law(x, largest));
     CHECK_LE(std::fabs(motor.heat() - x), 1e-3);
     CHECK_LE(std::fabs(motor.limit_Nm() - law(x, largest) * kContinuous_Nm), 1e-3);
@@ -202,17 +189,18 @@ TEST(Derating_NoDemandHeatsBeyondTheContinuousTorque) {
   test::Lcg random(12);
   for (int setting = 0; setting < 3; ++setting) {
     Stored stored = bar();
-    stored.derating.continuous_Nm[0] = setting == 1 ? .25f : .03f;
-    stored.derating.time_s[0] = setting == 1 ? .15f : setting == 0 ? 10.001f : 1e4f;
+    stored.part.continuous_Nm[0] = setting == 1 ? .25f : .03f;
+    stored.part.time_s[0] = setting == 1 ? .15f : setting == 0 ? 10.001f : 1e4f;
     Motor motor(stored);
     double most = 0;
     for (int tick = 0; tick < 300000; ++tick) {
       const bool pushes = tick % 7000 > 2000;
-      motor.step(pushes ? (tick % 2 == 0 ? 1 : -1) : 0, setting == 2                      ? 1e-4f
-                                                        : wide(random.between(0, 1)) < .5 ? .025f
-                                                                                          : 5e-4f);
+      motor.step(pushes ? (tick % 2 == 0 ? 1 : -1) : 0, setting == 2 ? 1e-4f
+                                                        : double{random.between(0, 1)} < .5
+                                                            ? .025f
+                                                            : 5e-4f);
       most = std::fmax(most, motor.heat());
-      CHECK_LE(std::fabs(wide(motor.torque_Nm[0])), kLargest_Nm + 1e-7);
+      CHECK_LE(std::fabs(double{motor.torque_Nm[0]}), kLargest_Nm + 1e-7);
     }
     CHECK_LE(most, 1 + 4e-7);
   }
@@ -221,11 +209,11 @@ TEST(Derating_NoDemandHeatsBeyondTheContinuousTorque) {
 // 10,000 s in ticks of 0.1 ms: a float alone stands still where a tick changes none of its digits.
 TEST(Derating_SlowHeat_IsNotLostInRoundings) {
   Stored stored = bar();
-  stored.derating.time_s[0] = 1e4f;
+  stored.part.time_s[0] = 1e4f;
   Motor motor(stored);
   constexpr int kTicks = 20000000;
   for (int tick = 0; tick < kTicks; ++tick) motor.step(.05, 1e-4f);
-  const double ended = .25 + .75 * std::exp(-kTicks * wide(1e-4f) / 1e4);
+  const double ended = .25 + .75 * std::exp(-kTicks * double{1e-4f} / 1e4);
   CHECK_LE(std::fabs(motor.heat() - ended), 1e-5);
 }
 

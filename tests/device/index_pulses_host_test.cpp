@@ -16,8 +16,6 @@ using namespace firmtouch;  // NOLINT: a test file
 
 namespace {
 
-double wide(float a) { return static_cast<double>(a); }
-
 struct Stored {
   device::HomedLinkageLayout homed;
   device::IndexLayout index;
@@ -75,11 +73,11 @@ class Joint {
   Joint(test::Lcg& random, const device::JointLayout& of, const device::IndexLayout& index,
         double play_counts, double most_rad_per_s)
       : random_(random),
-        counts_per_rad_(wide(of.counts_per_rad)),
-        index_rad_(wide(index.index_rad[0])),
-        period_rad_(wide(index.period_rad[0])),
-        middle_rad_(0.5 * (wide(of.low_rad) + wide(of.high_rad))),
-        half_rad_(0.5 * (wide(of.high_rad) - wide(of.low_rad))),
+        counts_per_rad_(double{of.counts_per_rad}),
+        index_rad_(double{index.index_rad[0]}),
+        period_rad_(double{index.period_rad[0]}),
+        middle_rad_(0.5 * (double{of.low_rad} + double{of.high_rad})),
+        half_rad_(0.5 * (double{of.high_rad} - double{of.low_rad})),
         most_rad_per_s_(most_rad_per_s),
         play_rad_(play_counts / std::fabs(counts_per_rad_)) {
     turn();
@@ -125,10 +123,10 @@ class Joint {
   void turn() {
     left_ = 200 + random_.bits() % 4000;
     const double before = swing_rad_ * std::sin(phase_);
-    swing_rad_ = half_rad_ * wide(random_.between(0.3f, 1));
+    swing_rad_ = half_rad_ * double{random_.between(0.3f, 1)};
     swing_rad_ = std::max(swing_rad_, std::fabs(before));
     phase_ = std::asin(before / swing_rad_);
-    rate_ = most_rad_per_s_ / swing_rad_ * std::pow(10.0, -2 * wide(random_.between(0, 1)));
+    rate_ = most_rad_per_s_ / swing_rad_ * std::pow(10.0, -2 * double{random_.between(0, 1)});
   }
 
   test::Lcg& random_;
@@ -237,7 +235,7 @@ TEST(IndexPulses_SoundJoints_AreNeverOff) {
     CHECK_EQ(ticks, kTicks);
     CHECK_GE(pulses, 4000u);
     CHECK_GE(lost, 5000u);
-    CHECK_GE(fastest, 0.8 * kMax_rad_per_s * 1e-3 * std::fabs(wide(counts_per_rad)));
+    CHECK_GE(fastest, 0.8 * kMax_rad_per_s * 1e-3 * std::fabs(double{counts_per_rad}));
   }
 }
 

@@ -6,7 +6,14 @@
 
 namespace firmtouch::device_test {
 
-/// A part of a section behind all else, opened; without its part a program rejects the section.
+/// A section with a part behind all else.
+template <class Layout, class Before = device::LinkageLayout>
+struct StoredWith {
+  Before before;
+  Layout part;
+};
+
+/// The part of a section, opened; without its part a program rejects the section.
 template <class Part, class Section>
 struct OpenedPart {
   Section stored;

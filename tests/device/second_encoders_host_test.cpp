@@ -14,18 +14,15 @@ namespace {
 
 constexpr double kWithin_rad = 0.01;
 
-struct Stored {
-  device::LinkageLayout linkage;
-  device::SecondEncodersLayout second;
-};
+using Stored = device_test::StoredWith<device::SecondEncodersLayout>;
 
 Stored bar(float first, float second) {
   Stored to = {};
-  to.linkage = device_test::stored_bar(first);
+  to.before = device_test::stored_bar(first);
   for (uint32_t k = 0; k < 2; ++k) {
-    to.second.counts_per_rad[k] = second;
+    to.part.counts_per_rad[k] = second;
   }
-  to.second.within_rad = static_cast<float>(kWithin_rad);
+  to.part.within_rad = static_cast<float>(kWithin_rad);
   return to;
 }
 
@@ -33,12 +30,10 @@ using Opened = device_test::OpenedPart<device::SecondEncoders, Stored>;
 
 void check_broken(uint32_t element, float first, float second, float within_rad, float third = 0) {
   Stored stored = bar(first, second);
-  stored.second.within_rad = within_rad;
-  stored.second.counts_per_rad[2] = third;
+  stored.part.within_rad = within_rad;
+  stored.part.counts_per_rad[2] = third;
   device_test::check_broken<device::SecondEncoders>(stored, device::kRuleSecondEncoder, element);
 }
-
-double wide(float a) { return static_cast<double>(a); }
 
 int32_t floor_of(double value) { return static_cast<int32_t>(std::floor(value)); }
 
@@ -65,7 +60,7 @@ TEST(SecondEncoders_ASectionWithoutThem_IsPassedAndNotCompared) {
   const uint8_t* data = reinterpret_cast<const uint8_t*>(&stored);
   device::StoredLinkage linkage;
   device::SecondEncoders second;
-  const core::Bytes alone(data, sizeof stored.linkage);
+  const core::Bytes alone(data, sizeof stored.before);
   CHECK_EQ(open(alone, linkage).rule, 0u);
   CHECK_EQ(second.open(alone, linkage).rule, 0u);
   CHECK(!second.is_open());
@@ -82,14 +77,15 @@ TEST(SecondEncoders_AgreeWithinTheToleranceOnly) {
     const double second = static_cast<double>(kSecond[setting]);
     const double size = second < 0 ? -second : second, ratio = size / (first < 0 ? -first : first);
     Stored stored = bar(kFirst[setting], kSecond[setting]);
-    const double within_rad = wide(stored.second.within_rad);
+    const double within_rad = double{stored.part.within_rad};
     const Opened opened(stored);
     CHECK(opened.verdict.ok());
     for (int i = 0; i < 1000; ++i) {
-      const double from_rad[2] = {wide(random.between(-100, 100)), wide(random.between(-100, 100))};
-      const double turned_rad[2] = {wide(random.between(-2, 2)), wide(random.between(-2, 2))};
+      const double from_rad[2] = {double{random.between(-100, 100)},
+                                  double{random.between(-100, 100)}};
+      const double turned_rad[2] = {double{random.between(-2, 2)}, double{random.between(-2, 2)}};
       const double reach_rad = i % 2 == 0 ? 3 * within_rad : 1;
-      const double off_rad[2] = {wide(random.between(-1, 1)) * reach_rad, 0};
+      const double off_rad[2] = {double{random.between(-1, 1)} * reach_rad, 0};
       const uint32_t wrap = random.bits();
       const auto seen = [&](double share, const double(&by_rad)[2], device::Sample& sample) {
         uint32_t second_counts = 0xFF0000u;
