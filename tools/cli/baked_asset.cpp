@@ -15,7 +15,6 @@
 #include "cli/files.hpp"
 #include "cli/hull_arguments.hpp"
 #include "cli/loaded_asset.hpp"
-#include "cli/version.hpp"
 #include "device/device_file.hpp"
 #include "device/inertia.hpp"
 #include "device/machines.hpp"
@@ -115,10 +114,7 @@ BakedInput bake_text_input(const std::string& path, uint32_t type, const char* w
     const std::vector<uint8_t> source = read_file(path);
     const auto elements = read(std::string(source.begin(), source.end()));
     const std::string name = stem_of(path);
-    baked.sections = {
-        tools::make_section(type, name, elements),
-        tools::text_section(asset::kProvenanceSection, name,
-                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
+    baked.sections = {tools::make_section(type, name, elements), provenance_of(path, name, source)};
     baked.report = {std::to_string(elements.size()) + what +
                     std::to_string(bytes_of(baked.sections)) + " bytes"};
   } catch (const tools::Refused& refused) {
@@ -219,8 +215,7 @@ BakedInput bake_device(const std::string& path) {
     const std::string name = stem_of(path);
     baked.sections = {
         tools::make_section(device::kLinkageSection, name, tools::stored_bytes_of(device)),
-        tools::text_section(asset::kProvenanceSection, name,
-                            tools::provenance(file_name_of(path), source, "", kToolVersion))};
+        provenance_of(path, name, source)};
     const tools::RangeFigures least = tools::least_figures(device);
     if (least.least_mass_kg > 0)
       baked.sections.push_back(

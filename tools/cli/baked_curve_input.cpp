@@ -8,7 +8,6 @@
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
-#include "cli/version.hpp"
 #include "curve/read_curve_csv.hpp"
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/curve/closest_point.hpp"
@@ -90,9 +89,7 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
   baked.sections.push_back(tools::curve_probes(view, name));
   baked.sections.push_back(
       tools::text_section(asset::kBoundsSection, name, facts_of(view, report, steps)));
-  baked.sections.push_back(tools::text_section(
-      asset::kProvenanceSection, name,
-      tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+  baked.sections.push_back(provenance_of(path, name, source, options.text));
 
   const uint64_t bytes = bytes_of(baked.sections);
   baked.report = {

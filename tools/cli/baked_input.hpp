@@ -63,6 +63,9 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
                              Progress& progress);
 
 uint64_t bytes_of(const std::vector<tools::Section>& sections);
+/// Where asset `name` comes from: file `path`, whose bytes are `source`, baked with `options`.
+tools::Section provenance_of(const std::string& path, const std::string& name,
+                             const std::vector<uint8_t>& source, const std::string& options = "");
 /// A line of a report with two numbers.
 std::string sentence(const char* format, double a, double b);
 

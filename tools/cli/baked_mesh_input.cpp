@@ -181,8 +181,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
   BakedInput baked;
   progress.stage("reading and checking " + file_name_of(path), 0.3);
   std::vector<uint8_t> source = read_model(path);
-  const tools::Facts origin =
-      tools::provenance(file_name_of(path), source, options.text, kToolVersion);
+  const tools::Section provenance = provenance_of(path, name, source, options.text);
   SoundSurface sound = sound_surface(path, std::move(source), options.model);
 
   progress.stage("building the tree of " + name, 0.65);
@@ -222,7 +221,7 @@ BakedInput bake_mesh_input(const std::string& path, const BakeOptions& options,
     reported_of_hull = add_hull(view, name, options, path, progress, baked);
   const auto add_facts = [&](const tools::Facts& facts) {
     baked.sections.push_back(tools::text_section(asset::kBoundsSection, name, facts));
-    baked.sections.push_back(tools::text_section(asset::kProvenanceSection, name, origin));
+    baked.sections.push_back(provenance);
   };
   if (!options.has_tree) {
     drop_tree(baked);
@@ -258,6 +257,12 @@ uint64_t bytes_of(const std::vector<tools::Section>& sections) {
   uint64_t bytes = 0;
   for (const tools::Section& section : sections) bytes += section.bytes.size();
   return bytes;
+}
+
+tools::Section provenance_of(const std::string& path, const std::string& name,
+                             const std::vector<uint8_t>& source, const std::string& options) {
+  return tools::text_section(asset::kProvenanceSection, name,
+                             tools::provenance(file_name_of(path), source, options, kToolVersion));
 }
 
 }  // namespace firmtouch::cli

@@ -9,7 +9,6 @@
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
-#include "cli/version.hpp"
 #include "firmtouch/asset/layout.hpp"
 #include "firmtouch/spline/closest_point.hpp"
 #include "firmtouch/spline/proof/opening.hpp"
@@ -139,9 +138,7 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
   baked.sections.push_back(tools::spline_probes(view, name));
   baked.sections.push_back(
       tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst, guide)));
-  baked.sections.push_back(tools::text_section(
-      asset::kProvenanceSection, name,
-      tools::provenance(file_name_of(path), source, options.text, kToolVersion)));
+  baked.sections.push_back(provenance_of(path, name, source, options.text));
 
   baked.report = {
       kind_of(report) + ", " + std::to_string(report.entities) +
