@@ -15,15 +15,12 @@
 
 namespace {
 
-using namespace firmtouch;  // NOLINT: a test file
+using namespace firmtouch;    // NOLINT: a test file
+using namespace spline_test;  // NOLINT
 using math::Vec3;
 using query::Budget;
 using query::kUnlimited;
 using spline::CurveHint;
-using spline_test::eight;
-using spline_test::Guide;
-using spline_test::hairpin;
-using spline_test::through;
 
 double length_to(const tools::SplineCurve& curve, double t) {
   double sum = 0;
@@ -52,8 +49,7 @@ double arc_at(const Guide& g, const tools::Point& on) {
 TEST(ArcPositionsAreLengthsAlongTheFilesCurve) {
   for (uint32_t seed = 0; seed < 8; ++seed) {
     tools::Random random(seed + 900);
-    const tools::SplineCurve curve =
-        spline_test::random_curve(random, 1 + static_cast<int>(seed % 5), 1);
+    const tools::SplineCurve curve = random_curve(random, 1 + static_cast<int>(seed % 5), 1);
     const Guide g({curve});
     const double whole = length_to(curve, curve.t1);
     firmtouch::test::note("seed", seed);
@@ -88,7 +84,7 @@ TEST(ArcPositionsRiseAlongTheCurveAndEndAtItsLength) {
 
 TEST(WithoutAPenaltyTheGuideIsAtTheClosestPoint) {
   tools::Random random(5);
-  const Guide g({spline_test::random_curve(random, 3, 2)});
+  const Guide g({random_curve(random, 3, 2)});
   spline::Following following;
   CurveHint hint;
   for (int i = 0; i < 200; ++i) {
@@ -185,7 +181,7 @@ TEST(TheGuideIsWhereTheDistanceFallsToFromTheLeastCost) {
   uint32_t others = 0, moves = 0;
   for (uint32_t seed = 0; seed < 12; ++seed) {
     tools::Random random(seed + 60);
-    const Guide g({spline_test::random_curve(random, 1 + static_cast<int>(seed % 5), 1)});
+    const Guide g({random_curve(random, 1 + static_cast<int>(seed % 5), 1)});
     const float extent_m = g.view.head().extent_m;
     spline::Following following;
     CurveHint hint;
@@ -251,7 +247,7 @@ TEST(AroundAnEightTheGuideRunsThroughTheCrossingBothTimes) {
 
 TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
   tools::Random random(77);
-  const Guide g({spline_test::random_curve(random, 3, 1), spline_test::random_curve(random, 2, 1)});
+  const Guide g({random_curve(random, 3, 1), random_curve(random, 2, 1)});
   for (int i = 0; i < 2000; ++i) {
     spline::Following following;
     following.piece = random.below(i % 3 == 0 ? 0xFFFFFFFFu : 40);
@@ -279,7 +275,7 @@ TEST(NoStateMakesTheGuidesAnswerWorseThanTheClosestPoints) {
 
 TEST(StarvedGuide_StaysTrue_AtEveryBudget) {
   tools::Random random(78);
-  const Guide g({spline_test::random_curve(random, 3, 1), spline_test::random_curve(random, 5, 1)});
+  const Guide g({random_curve(random, 3, 1), random_curve(random, 5, 1)});
   const spline::Hold hold{0.1f * g.guide.length_m(), 1e3f};
   for (uint32_t work = 0; work <= 400; ++work) {
     firmtouch::test::note("work", work);
