@@ -81,7 +81,7 @@ struct Scene {
 };
 
 struct Counts {
-  uint64_t records = 0, missing = 0, blocks = 0, wrong = 0;
+  uint64_t records = 0, missing = 0, wrong = 0;
   std::vector<log::Gap> gaps;
   bool is_whole = false;
 };
@@ -98,7 +98,6 @@ Counts count(const Bytes& bytes) {
   }
   counts.records = reader.records();
   counts.missing = reader.missing();
-  counts.blocks = reader.blocks();
   counts.gaps = reader.gaps();
   counts.is_whole = reader.is_whole();
   return counts;
