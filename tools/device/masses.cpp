@@ -26,29 +26,25 @@ std::vector<Link> links(const Delta& delta) {
 }
 
 template <size_t kCount>
-void put(float (&to)[kCount], const float* from, uint32_t first, uint32_t count) {
-  for (uint32_t k = 0; k < count; ++k) to[first + k] = from[k];
+void put(float (&to)[kCount], const float* from, uint32_t count) {
+  for (uint32_t k = 0; k < count; ++k) to[k] = from[k];
 }
 
+// All except its lengths.
 void put_linkage(const FiveBar& bar, device::LinkageLayout& to) {
   to.kind = device::kFiveBar;
   to.flags = bar.is_tip_left ? device::kFlagTip : 0;
-  put(to.length_m, bar.proximal_m, 0, 2);
-  put(to.length_m, bar.distal_m, 2, 2);
   to.offset_m[0] = bar.base_m;
 }
 void put_linkage(const SerialArm& arm, device::LinkageLayout& to) {
   to.kind = device::kSerialArm;
   to.flags = arm.has_parallelogram ? device::kFlagParallelogram : 0;
-  put(to.length_m, arm.link_m, 0, 2);
   to.offset_m[0] = arm.offset_m;
   to.offset_m[1] = arm.height_m;
 }
 void put_linkage(const Delta& delta, device::LinkageLayout& to) {
   to.kind = device::kDelta;
   to.flags = delta.is_tip_above ? device::kFlagTip : 0;
-  put(to.length_m, delta.upper_m, 0, 3);
-  put(to.length_m, delta.lower_m, 3, 3);
   to.offset_m[0] = delta.base_radius_m;
   to.offset_m[1] = delta.platform_radius_m;
   to.offset_m[2] = delta.side_m;
@@ -95,6 +91,8 @@ device::Load load_of(const LinkageDevice& device) {
 device::LinkageLayout layout_of(const LinkageDevice& device) {
   device::LinkageLayout to = {};
   std::visit([&](const auto& linkage) { put_linkage(linkage, to); }, device.linkage);
+  float* length_m = to.length_m;
+  for (const Link& link : links_of(device)) *length_m++ = static_cast<float>(link.length_m);
   if (device.are_walls_forced) to.flags |= device::kFlagForcedWalls;
   to.least_mass_kg = static_cast<float>(least_figures(device).least_mass_kg);
   to.joints = device.joints.joints;
@@ -102,13 +100,13 @@ device::LinkageLayout layout_of(const LinkageDevice& device) {
     const device::JointSetting& joint = device.joints.joint[k];
     to.joint[k] = {joint.counts_per_rad, joint.zero_rad, joint.low_rad, joint.high_rad};
   }
-  put(to.max_torque_Nm, device.limits.max_torque_Nm, 0, to.joints);
+  put(to.max_torque_Nm, device.limits.max_torque_Nm, to.joints);
   to.torque_rise_s = device.torque_rise_s;
   to.max_speed_rad_per_s = device.joints.max_speed_rad_per_s;
   to.full_from = device.limits.full_from;
   to.gone_at = device.limits.gone_at;
   const device::Load load = load_of(device);
-  put(to.elbow_mass_kg, load.elbow_mass_kg, 0, 3);
+  put(to.elbow_mass_kg, load.elbow_mass_kg, 3);
   to.tip_mass_kg = load.tip_mass_kg;
   to.gravity_mps2[0] = load.gravity_mps2.x;
   to.gravity_mps2[1] = load.gravity_mps2.y;
@@ -132,27 +130,27 @@ std::vector<uint8_t> stored_bytes_of(const LinkageDevice& device) {
     homing.by = static_cast<uint32_t>(device.homing.by);
     homing.speed_rad_per_s = device.homing.speed_rad_per_s;
     homing.margin_rad = device.homing.margin_rad;
-    put(homing.torque_Nm, device.homing.torque_Nm, 0, device.joints.joints);
-    put(homing.pose_rad, device.homing.pose_rad, 0, device.joints.joints);
+    put(homing.torque_Nm, device.homing.torque_Nm, device.joints.joints);
+    put(homing.pose_rad, device.homing.pose_rad, device.joints.joints);
     append(bytes, homing);
   }
   if (device.has_index_pulses) {
     device::IndexLayout index = {};
-    put(index.index_rad, device.homing.index_rad, 0, device.joints.joints);
-    put(index.period_rad, device.homing.index_period_rad, 0, device.joints.joints);
+    put(index.index_rad, device.homing.index_rad, device.joints.joints);
+    put(index.period_rad, device.homing.index_period_rad, device.joints.joints);
     index.within_rad = device.homing.index_within_rad;
     append(bytes, index);
   }
   if (device.has_second_encoders) {
     device::SecondEncodersLayout second = {};
-    put(second.counts_per_rad, device.second_counts_per_rad, 0, device.joints.joints);
+    put(second.counts_per_rad, device.second_counts_per_rad, device.joints.joints);
     second.within_rad = device.second_within_rad;
     append(bytes, second);
   }
   if (device.is_derated) {
     device::DeratingLayout derating = {};
-    put(derating.continuous_Nm, device.continuous_Nm, 0, device.joints.joints);
-    put(derating.time_s, device.thermal_time_s, 0, device.joints.joints);
+    put(derating.continuous_Nm, device.continuous_Nm, device.joints.joints);
+    put(derating.time_s, device.thermal_time_s, device.joints.joints);
     append(bytes, derating);
   }
   if (has_compensation(device)) {
