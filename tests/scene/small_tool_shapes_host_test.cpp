@@ -108,6 +108,37 @@ class Shapes {
 
 }  // namespace
 
+TEST(ClosedForm_FeatureOfAnyPoint_LiesInTheShape) {
+  Shapes shapes(5);
+  for (int round = 0; round < 5000; ++round)
+    shapes.each([&](auto shape) {
+      const scene::Feature feature = shape.near(shapes.any(0.1), {}, 0).feature;
+      const Vec3(&corner_m)[3] = feature.corner;
+      const auto check = [&](Vec3 p_m) { CHECK_LE(truth_m(shape, p_m), 2e-7); };
+      if (feature.kind == scene::Feature::Kind::kTriangle)
+        for (const Vec3& p_m : corner_m) check(p_m);
+      if (feature.kind == scene::Feature::Kind::kBall)
+        for (int k = 0; k < 8; ++k) check(corner_m[0] + shapes.unit() * corner_m[1].x);
+    });
+}
+
+TEST(ClosedForm_FarFromTheOrigin_BoundsAreAsCloseAsNearIt) {
+  Shapes shapes(6);
+  const int rounds = firmtouch::test::is_long() ? 1000000 : 20000;
+  for (int round = 0; round < rounds; ++round)
+    shapes.each([&](auto shape) {
+      const double size_m = wide(shape.size_m());
+      const Vec3 any_m = shapes.any(0.1);
+      const scene::Near far = shape.near(any_m, {}, 0);
+      const Vec3 at_m = any_m - far.outward * (far.distance_m -
+                                               static_cast<float>(size_m * shapes.between(0, 1)));
+      const scene::Near near = shape.near(at_m, {}, 0);
+      const double true_m = std::fabs(truth_m(shape, at_m));
+      CHECK_LE(wide(near.lower_m), true_m);
+      CHECK_LE(true_m - wide(near.lower_m), 2e-6 * (true_m + 1.5 * size_m));
+    });
+}
+
 TEST(SmallTool_WayThatAShapeProvesFree_IsFree) {
   Shapes shapes(3);
   uint32_t long_ways = 0, ways = 0;

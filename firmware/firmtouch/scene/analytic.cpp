@@ -8,7 +8,8 @@ namespace {
 
 using math::Vec3;
 
-// Of all roundings of a distance, relative to the coordinates that enter it.
+// Of all roundings of a distance, relative to it and to the shape's size: coordinates enter only by
+// their differences, so it holds far from the origin, too.
 constexpr float kRounding = 16.0f * 0x1p-24f;
 
 Near answer(float signed_m, Vec3 outward, float scale_m) {
@@ -24,23 +25,27 @@ Near answer(float signed_m, Vec3 outward, float scale_m) {
   return near;
 }
 
-// Of a ball about `centre_m`.
-Near of_ball(Vec3 x_m, Vec3 centre_m, float radius_m, float scale_m) {
-  const Vec3 off_m = x_m - centre_m;
+Feature ball(Vec3 centre_m, float radius_m) {
+  Feature feature;
+  feature.corner[0] = centre_m;
+  feature.corner[1].x = radius_m;
+  feature.kind = Feature::Kind::kBall;
+  return feature;
+}
+
+// Of a ball about `centre_m`, at `off_m` from there.
+Near of_ball(Vec3 off_m, Vec3 centre_m, float radius_m, float scale_m) {
   const float size_m = math::length(off_m);
   const Vec3 outward = size_m > 0.0f ? off_m * (1.0f / size_m) : Vec3{0, 0, 1};
-  Near near = answer(size_m - radius_m, outward, scale_m + math::length(centre_m));
-  near.feature.corner[0] = centre_m;
-  near.feature.corner[1].x = radius_m;
-  near.feature.kind = Feature::Kind::kBall;
+  Near near = answer(size_m - radius_m, outward, scale_m);
+  near.feature = ball(centre_m, radius_m);
   return near;
 }
 
 // Of a point of the surface.
 Near of_point(float signed_m, Vec3 outward, Vec3 point_m, float scale_m) {
-  Near near = answer(signed_m, outward, scale_m + math::length(point_m));
-  near.feature.corner[0] = point_m;
-  near.feature.kind = Feature::Kind::kBall;
+  Near near = answer(signed_m, outward, scale_m);
+  near.feature = ball(point_m, 0);
   return near;
 }
 // Of a flat face that is a triangle in it: of a tool that is a point, the line to the nearest point
@@ -166,7 +171,7 @@ float PlaneTouched::free_part(const Way& way, query::Budget, uint32_t& work) con
 
 float SphereTouched::size_m() const { return 3.5f * radius_m; }
 Near SphereTouched::near(Vec3 x_m, query::Budget, float) const {
-  return of_ball(x_m, centre_m, radius_m, radius_m);
+  return of_ball(x_m - centre_m, centre_m, radius_m, radius_m);
 }
 float SphereTouched::free_part(const Way& way, query::Budget budget, uint32_t& work) const {
   return CapsuleTouched{{centre_m, centre_m}, radius_m}.free_part(way, budget, work);
@@ -174,11 +179,11 @@ float SphereTouched::free_part(const Way& way, query::Budget budget, uint32_t& w
 
 float CapsuleTouched::size_m() const { return math::length(end_m[1] - end_m[0]) + 2.0f * radius_m; }
 Near CapsuleTouched::near(Vec3 x_m, query::Budget, float) const {
-  const Vec3 axis_m = end_m[1] - end_m[0];
+  const Vec3 axis_m = end_m[1] - end_m[0], off_m = x_m - end_m[0];
   const float length2 = math::dot(axis_m, axis_m);
-  float t = length2 > 0.0f ? math::dot(x_m - end_m[0], axis_m) / length2 : 0.0f;
+  float t = length2 > 0.0f ? math::dot(off_m, axis_m) / length2 : 0.0f;
   t = t < 0.0f ? 0.0f : t > 1.0f ? 1.0f : t;
-  return of_ball(x_m, end_m[0] + axis_m * t, radius_m, size_m());
+  return of_ball(off_m - axis_m * t, end_m[0] + axis_m * t, radius_m, size_m());
 }
 float CapsuleTouched::free_part(const Way& way, query::Budget budget, uint32_t& work) const {
   ++work;
@@ -199,7 +204,7 @@ Near CylinderTouched::near(Vec3 x_m, query::Budget, float) const {
   const Vec3 middle_m = (end_m[0] + end_m[1]) * 0.5f, axis_m = end_m[1] - end_m[0];
   const float length_m = math::length(axis_m);
   const Vec3 axis = length_m > 0.0f ? axis_m * (1.0f / length_m) : Vec3{0, 0, 1};
-  const Vec3 off_m = x_m - middle_m;
+  const Vec3 off_m = ((x_m - end_m[0]) + (x_m - end_m[1])) * 0.5f;
   const float along_m = math::dot(off_m, axis);
   Vec3 across_m = off_m - axis * along_m;
   across_m = across_m - axis * math::dot(across_m, axis);  // what rounding left beside the axis
@@ -211,11 +216,14 @@ Near CylinderTouched::near(Vec3 x_m, query::Budget, float) const {
   const Inside in = of_box({out_m, along_m, 0}, {radius_m, 0.5f * length_m, size_m()});
   Near near = of_point(in.signed_m, radial * in.outward.x + axis * in.outward.y,
                        middle_m + radial * in.point_m.x + axis * in.point_m.y, size_m());
-  if (in.is_flat && in.outward.x > 0.0f)  // beside its length it is a capsule
-    near.feature = of_ball(x_m, middle_m + axis * along_m, radius_m, size_m()).feature;
-  else if (in.is_flat)
+  if (in.is_flat && in.outward.x > 0.0f) {  // the largest ball in it that the point is on
+    const float end_gap_m = 0.5f * length_m - __builtin_fabsf(along_m);
+    const float ball_m = math::smaller(end_gap_m, radius_m);
+    near.feature = ball(middle_m + axis * along_m + radial * (radius_m - ball_m), ball_m);
+  } else if (in.is_flat) {
     near.feature = in_disc(middle_m + axis * in.point_m.y, radial * radius_m,
                            math::cross(axis, radial) * radius_m, in.point_m.x / radius_m);
+  }
   return near;
 }
 float CylinderTouched::free_part(const Way& way, query::Budget budget, uint32_t& work) const {
@@ -236,8 +244,8 @@ float CylinderTouched::free_part(const Way& way, query::Budget budget, uint32_t&
 float BoxTouched::size_m() const { return 2.0f * math::length(half_m); }
 Near BoxTouched::near(Vec3 x_m, query::Budget, float) const {
   const Inside in = of_box(math::apply_inverse(pose, x_m), half_m);
-  Near near = of_point(in.signed_m, pose.rotation * in.outward, math::apply(pose, in.point_m),
-                       size_m() + math::length(pose.translation_m));
+  Near near =
+      of_point(in.signed_m, pose.rotation * in.outward, math::apply(pose, in.point_m), size_m());
   if (in.is_flat) {
     near.feature = half_of_face(in, half_m);
     for (Vec3& corner_m : near.feature.corner) corner_m = math::apply(pose, corner_m);
