@@ -207,3 +207,16 @@ FarPartsAnswerInTheFilesCoordinates() {
   same "$(printf '%s\n' "$out" | sed 1d | awk -F, '{ printf "%.6f %.6f %.6f %.6f", $1, $2, $3, $4 }')" \
     '0.050000 1002.100000 -2000.200000 3000.300000'
 }
+
+# A pipe stays one: a renamed file would stand where the device was.
+ADeviceOrAPipeIsWrittenTo() {
+  box >box.obj
+  bake box.obj -o box.fta
+  mkfifo pipe
+  cat pipe >read.fta &
+  reader=$!
+  bake box.obj -o pipe
+  [ -p pipe ] || { fail 'the pipe is gone'; kill $reader 2>/dev/null; }
+  wait $reader
+  cmp -s box.fta read.fta || fail 'other bytes'
+}

@@ -19,6 +19,12 @@ bool is_gz(const std::string& path) {
   return extension == ".gz" || extension == ".GZ";
 }
 
+// A device or a pipe, which a renamed file would replace.
+bool is_special(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_other(path, error) && !error;
+}
+
 std::vector<uint8_t> taken(tools::LoadedFile file, const std::string& name) {
   if (!file.problem.empty()) fail_input(name + ": " + file.problem);
   return std::move(file.bytes);
@@ -46,15 +52,16 @@ void write_file(const std::string& path, const void* bytes, size_t count) {
     std::fwrite(bytes, 1, count, stdout);
     return;
   }
-  const std::string temporary = path + ".part";
+  const std::string temporary = is_special(path) ? path : path + ".part";
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr)
     fail_input(path + ": cannot be written: " + reason() + "; name one in a folder that exists");
   const bool written = std::fwrite(bytes, 1, count, file) == count;
   const bool closed = std::fclose(file) == 0;
-  if (written && closed && std::rename(temporary.c_str(), path.c_str()) == 0) return;
+  if (written && closed && (temporary == path || std::rename(temporary.c_str(), path.c_str()) == 0))
+    return;
   const std::string why = reason();
-  std::remove(temporary.c_str());
+  if (temporary != path) std::remove(temporary.c_str());
   fail_input(path + ": cannot be written: " + why);
 }
 

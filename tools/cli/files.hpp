@@ -13,7 +13,7 @@ std::vector<uint8_t> read_model(const std::string& path);
 std::string read_standard_input();
 
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
-/// command leaves no output. -: to standard output.
+/// command leaves no output. A device or a pipe is written to. -: to standard output.
 void write_file(const std::string& path, const void* bytes, size_t count);
 
 /// "dir/spot.final.obj": stem "spot.final", extension ".obj" (lower case), file name
