@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/log.hpp"
@@ -12,6 +13,12 @@ namespace firmtouch::host_sim {
 namespace {
 
 const std::string kStandardOutput = "-";
+
+// A device or a pipe, which a renamed file would replace.
+bool is_special(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_other(path, error) && !error;
+}
 
 }  // namespace
 
@@ -24,10 +31,16 @@ std::string read_file(const std::string& path) {
   return bytes.str();
 }
 
-std::string partial_of(const std::string& path) { return path + ".partial"; }
+std::string partial_of(const std::string& path) {
+  return is_special(path) ? path : path + ".partial";
+}
+
+void remove_partial(const std::string& path) {
+  if (!is_special(path)) std::remove(partial_of(path).c_str());
+}
 
 void check_writable(const std::string& path) {
-  if (path == kStandardOutput) return;
+  if (path == kStandardOutput || is_special(path)) return;
   const std::string partial = partial_of(path);
   const bool is_folder = std::filesystem::is_directory(path);
   std::ofstream out;
@@ -44,7 +57,7 @@ void take_name(const std::string& path) {
   const std::string partial = partial_of(path);
   if (std::rename(partial.c_str(), path.c_str()) == 0) return;
   const int error = errno;
-  std::remove(partial.c_str());
+  remove_partial(path);
   throw Refused(path + ": cannot be written: " + std::strerror(error));
 }
 
@@ -57,7 +70,7 @@ TextStream::TextStream(const std::string& path)
 TextStream::~TextStream() {
   if (file_ == nullptr || file_ == stdout) return;
   std::fclose(file_);
-  std::remove(partial_of(path_).c_str());
+  remove_partial(path_);
 }
 
 void TextStream::add(const std::string& text) {
@@ -70,7 +83,7 @@ void TextStream::finish() {
   file_ = file == stdout ? stdout : nullptr;
   if ((file == stdout ? std::fflush(file) : std::fclose(file)) != 0) {
     const int error = errno;
-    if (file != stdout) std::remove(partial_of(path_).c_str());
+    if (file != stdout) remove_partial(path_);
     throw Refused(path_ + ": cannot be written: " + std::strerror(error));
   }
   if (file != stdout) take_name(path_);

@@ -104,7 +104,7 @@ LogStream::LogStream(const std::string& path, const std::map<std::string, std::s
 }
 
 LogStream::~LogStream() {
-  if (file_->sink != nullptr) std::remove(partial_of(file_->path).c_str());
+  if (file_->sink != nullptr) remove_partial(file_->path);
 }
 
 void LogStream::add(const record::TickRecord& record) {

@@ -53,8 +53,10 @@ std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& bytes);
 /// Throws Refused if write_file() would fail for a reason that is visible now. Changes nothing.
 void check_writable(const std::string& path);
-/// Path that is written to before the file gets its name.
+/// Path that is written to before the file gets its name; that of a device or a pipe is its own.
 std::string partial_of(const std::string& path);
+/// Removes what was written there, except a device or a pipe.
+void remove_partial(const std::string& path);
 /// Renames the written partial file to `path`. Throws Refused, and removes it, if that fails.
 void take_name(const std::string& path);
 
