@@ -19,12 +19,6 @@ bool is_gz(const std::string& path) {
   return extension == ".gz" || extension == ".GZ";
 }
 
-// A device or a pipe, which a renamed file would replace.
-bool is_special(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::is_other(path, error) && !error;
-}
-
 std::vector<uint8_t> taken(tools::LoadedFile file, const std::string& name) {
   if (!file.problem.empty()) fail_input(name + ": " + file.problem);
   return std::move(file.bytes);
@@ -45,6 +39,11 @@ std::string read_standard_input() {
   const std::vector<uint8_t> bytes =
       taken(tools::load_stream(stdin, tools::kMaxLineBytes), "standard input");
   return {bytes.begin(), bytes.end()};
+}
+
+bool is_special(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_other(path, error) && !error;
 }
 
 void write_file(const std::string& path, const void* bytes, size_t count) {

@@ -27,7 +27,7 @@ class TextOutput {
   ~TextOutput() {
     if (file_ == nullptr) return;
     std::fclose(file_);
-    std::remove(partial().c_str());
+    remove_partial();
   }
   TextOutput(const TextOutput&) = delete;
   TextOutput& operator=(const TextOutput&) = delete;
@@ -39,12 +39,15 @@ class TextOutput {
     const bool is_good = std::ferror(file_) == 0 && std::fclose(file_) == 0;
     file_ = nullptr;
     if (is_good && std::rename(partial().c_str(), path_.c_str()) == 0) return;
-    std::remove(partial().c_str());
+    remove_partial();
     fail_input(path_ + ": cannot be written; is the disk full?");
   }
 
  private:
-  std::string partial() const { return path_ + ".partial"; }
+  std::string partial() const { return is_special(path_) ? path_ : path_ + ".partial"; }
+  void remove_partial() const {
+    if (!is_special(path_)) std::remove(partial().c_str());
+  }
   std::string path_;
   std::FILE* file_ = nullptr;
 };
