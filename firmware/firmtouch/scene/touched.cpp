@@ -40,7 +40,7 @@ Tangent plane_of(const Feature& feature, Vec3 offset_m, float height_m) {
 // loses what the coordinates lose, divided by the distance. Of a sliver it is the other way.
 Tangent of_triangle(const Feature& feature, Vec3 x_m, const Outlook& outlook) {
   const mesh::Foot foot =
-      mesh::closest_on_triangle(x_m, feature.corner[0], feature.corner[1], feature.corner[2]);
+      mesh::foot_on(x_m, {feature.corner[0], feature.corner[1], feature.corner[2]});
   const Tangent line = from_offset(foot.offset_m, 0.0f);
   const Tangent own = plane_of(feature, foot.offset_m, line.distance_m);
   if (!(own.distance_m > 0.0f)) return line;
