@@ -139,6 +139,9 @@ TEST(PlyProblemsAreNamedWithTheirPlace) {
   const std::string ascii = cube_ply_ascii(), binary = cube_ply_binary(false);
   CHECK(refuses(cube_obj(), "a.ply", "", "does not begin with the line `ply`"));
   CHECK(refuses(ascii.substr(0, ascii.find("property")), "a.ply", ":4:", "no `end_header`"));
+  CHECK(refuses(replaced(ascii, "face 6", "face 5"), "a.ply", ":", "goes on after"));
+  CHECK(refuses(binary + "abcd", "a.ply", "byte", "goes on after"));
+  CHECK(reads_cube(binary + "\r\n", "a.ply"));
   CHECK(refuses(replaced(ascii, "ascii 1.0", "ebcdic 1.0"), "a.ply", ":2:", "no format of PLY"));
   CHECK(refuses(replaced(ascii, "property double x", "property quad x"), "a.ply",
                 ":5:", "`quad` is no type"));

@@ -56,6 +56,14 @@ class PlyValues {
     return format_ != PlyFormat::kAscii || !scan_.next_word(word);
   }
 
+  // After all elements: whether more follows than white space.
+  bool has_more() {
+    std::string_view word;
+    from_ = at_;
+    return is_text() ? scan_.find_word(word)
+                     : file_.find_first_not_of(" \t\r\n", at_) != std::string_view::npos;
+  }
+
   bool is_text() const { return format_ == PlyFormat::kAscii; }
   /// Reports what is wrong with the last value. Result: whether reading can go on.
   bool report(ImportSink& sink, const Place& place, const char* wrong) const {
@@ -264,6 +272,12 @@ void read_ply(std::string_view file, ImportSink& sink) {
     for (uint64_t i = 0; i < element.count; ++i) {
       if (!read_element(values, element, wanted, i, corners, sink)) return;
     }
+  }
+  if (!header.elements.empty() && values.has_more()) {
+    const PlyElement& last = header.elements.back();
+    sink.fail(values.place(last, last.count),
+              "the file goes on after what its header counts: mend the header, or export it again");
+    return;
   }
   if (!has_faces && !sink.allows_points())
     sink.fail("has no element face: export it as a triangle mesh; points are taken with --wrap D");
