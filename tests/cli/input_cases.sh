@@ -208,6 +208,13 @@ FarPartsAnswerInTheFilesCoordinates() {
     '0.050000 1002.100000 -2000.200000 3000.300000'
 }
 
+# What a message quotes of a file is short and printable.
+AWordOfABinaryFileIsQuotedInShort() {
+  { head -c 100000 /dev/zero | tr '\0' 'A'; printf '\033[31m 1\n'; } >long.tool
+  refused long.tool ':1:' 'is expected instead of'
+  [ ${#err} -lt 1200 ] || fail "${#err} characters in a message"
+}
+
 # A pipe stays one: a renamed file would stand where the device was.
 ADeviceOrAPipeIsWrittenTo() {
   box >box.obj

@@ -58,7 +58,12 @@ query::Budget budget_of(const Arguments& arguments) {
   budget.work = arguments.count("--work", UINT32_MAX, 0, UINT32_MAX);
   if (!arguments.has("--budget")) return budget;
   // Visits: accepted in this version. One takes two and a half units on average.
-  std::fprintf(stderr, "--budget N is now --work N, in work units; a visit counts 2.5\n");
+  static bool is_said = false;
+  if (!is_said)
+    std::fprintf(
+        stderr,
+        "firmtouch: query: --budget N is now --work N, in work units; a visit counts 2.5\n");
+  is_said = true;
   const uint64_t work = uint64_t{arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX)} * 5 / 2;
   budget.work = static_cast<uint32_t>(std::min<uint64_t>(work, UINT32_MAX));
   return budget;

@@ -106,7 +106,14 @@ LineReader::LineReader(const std::string& line, std::string place,
   }
 }
 
-void LineReader::refuse(const std::string& what) const { throw Refused(place_ + ": " + what); }
+// Words of the file are in it: of any length, and whatever their bytes.
+void LineReader::refuse(const std::string& what) const {
+  constexpr size_t kMaxShown = 1000;
+  std::string text = what.size() > kMaxShown ? what.substr(0, kMaxShown) + "..." : what;
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7F') c = '?';
+  throw Refused(place_ + ": " + text);
+}
 
 void LineReader::refuse_unknown(const std::string& kind, const std::string& name,
                                 const std::string& help) const {
