@@ -1,4 +1,5 @@
 #pragma once
+#include "firmtouch/core/bytes.hpp"
 #include "firmtouch/core/span.hpp"
 #include "firmtouch/core/status.hpp"
 #include "firmtouch/device/layout.hpp"
@@ -46,11 +47,11 @@ class FurtherPart : public StoredPart<Layout> {
   core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Needed&... needed);
 
  private:
-  // Null: the section has none. Aligned, as the linkage before it is.
+  // Null: the section has none.
   static const Layout* find(core::Bytes section) {
     const uint32_t rest = before(section).size();
-    const void* const behind = section.data() + rest;
-    return rest == section.size() ? nullptr : static_cast<const Layout*>(behind);
+    if (rest == section.size()) return nullptr;
+    return core::as_array<Layout>({section.data() + rest, sizeof(Layout)}, 1).data();
   }
 };
 
