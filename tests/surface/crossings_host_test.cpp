@@ -102,6 +102,17 @@ TEST(BodiesThatCrossOnlyAtDiagonalsAreFound) {
   CHECK(found.places.size() == 1 && found.places[0].vertices == (std::vector<uint32_t>{7, 8}));
 }
 
+// Edges that lie in the plane of another body's face cross its edges, or begin on them.
+TEST(BodiesThatCrossInCommonPlanesAreFound) {
+  for (const math::Vec3 shift : {math::Vec3{1, 1, 0}, math::Vec3{0.5f, 0.25f, 0}}) {
+    Surface two = cube();
+    append(two, cube(shift));
+    const Crossings found = find_crossings(two);
+    CHECK(found.pairs == pairs_by_force(two));
+    CHECK_LT(5, found.pairs.size());
+  }
+}
+
 TEST(FeaturesInsideAnotherSheetAreListed) {
   Surface two = make_part(1, 2000), other = make_part(2, 2000);
   const Surface first = two;
