@@ -4,21 +4,15 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <system_error>
 
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/log.hpp"
+#include "log/file_sink.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
 
 const std::string kStandardOutput = "-";
-
-// A device or a pipe, which a renamed file would replace.
-bool is_special(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::is_other(path, error) && !error;
-}
 
 }  // namespace
 
@@ -32,15 +26,15 @@ std::string read_file(const std::string& path) {
 }
 
 std::string partial_of(const std::string& path) {
-  return is_special(path) ? path : path + ".partial";
+  return log::is_special(path) ? path : path + ".partial";
 }
 
 void remove_partial(const std::string& path) {
-  if (!is_special(path)) std::remove(partial_of(path).c_str());
+  if (!log::is_special(path)) std::remove(partial_of(path).c_str());
 }
 
 void check_writable(const std::string& path) {
-  if (path == kStandardOutput || is_special(path)) return;
+  if (path == kStandardOutput || log::is_special(path)) return;
   const std::string partial = partial_of(path);
   const bool is_folder = std::filesystem::is_directory(path);
   std::ofstream out;

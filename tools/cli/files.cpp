@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "cli/failure.hpp"
+#include "log/file_sink.hpp"
 #include "surface/read/load_file.hpp"
 
 namespace firmtouch::cli {
@@ -41,17 +42,12 @@ std::string read_standard_input() {
   return {bytes.begin(), bytes.end()};
 }
 
-bool is_special(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::is_other(path, error) && !error;
-}
-
 void write_file(const std::string& path, const void* bytes, size_t count) {
   if (path == "-") {  // run_program() reports what cannot be written
     std::fwrite(bytes, 1, count, stdout);
     return;
   }
-  const std::string temporary = is_special(path) ? path : path + ".part";
+  const std::string temporary = log::is_special(path) ? path : path + ".part";
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr)
     fail_input(path + ": cannot be written: " + reason() + "; name one in a folder that exists");

@@ -12,9 +12,6 @@ std::vector<uint8_t> read_file(const std::string& path);
 std::vector<uint8_t> read_model(const std::string& path);
 std::string read_standard_input();
 
-/// Whether it is a device or a pipe, which a renamed file would replace.
-bool is_special(const std::string& path);
-
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
 /// command leaves no output. A device or a pipe is written to. -: to standard output.
 void write_file(const std::string& path, const void* bytes, size_t count);

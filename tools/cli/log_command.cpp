@@ -9,6 +9,7 @@
 #include "cli/npy.hpp"
 #include "cli/progress.hpp"
 #include "log/edit.hpp"
+#include "log/file_sink.hpp"
 #include "log/plot.hpp"
 #include "log/reader.hpp"
 #include "log/statistics.hpp"
@@ -44,9 +45,9 @@ class TextOutput {
   }
 
  private:
-  std::string partial() const { return is_special(path_) ? path_ : path_ + ".partial"; }
+  std::string partial() const { return log::is_special(path_) ? path_ : path_ + ".partial"; }
   void remove_partial() const {
-    if (!is_special(path_)) std::remove(partial().c_str());
+    if (!log::is_special(path_)) std::remove(partial().c_str());
   }
   std::string path_;
   std::FILE* file_ = nullptr;

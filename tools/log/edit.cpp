@@ -1,7 +1,6 @@
 #include "log/edit.hpp"
 
 #include <cstdio>
-#include <filesystem>
 #include <stdexcept>
 
 #include "log/file_sink.hpp"
@@ -11,11 +10,12 @@
 namespace firmtouch::log {
 namespace {
 
-// A log that takes its name when it is whole. A device is written to, not replaced.
+// A log that takes its name when it is whole.
 class Output {
  public:
-  Output(const std::string& path, const Header& header)
-      : path_(path), partial_(std::filesystem::is_other(path) ? path : path + ".partial") {
+  Output(const std::string& path, const Header& header) : path_(path), partial_(path + ".partial") {
+    if (is_special(path))
+      throw std::runtime_error(path + ": a device or a pipe holds no log: name a file");
     std::string problem;
     sink_ = make_file(partial_, problem);
     if (!sink_) throw std::runtime_error(problem);
@@ -23,7 +23,7 @@ class Output {
     if (!writer_->begin()) fail();
   }
   ~Output() {
-    if (sink_ && partial_ != path_) std::remove(partial_.c_str());
+    if (sink_) std::remove(partial_.c_str());
   }
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -36,7 +36,7 @@ class Output {
     records_ = writer_->records();
     writer_.reset();
     sink_.reset();
-    if (partial_ == path_ || std::rename(partial_.c_str(), path_.c_str()) == 0) return;
+    if (std::rename(partial_.c_str(), path_.c_str()) == 0) return;
     std::remove(partial_.c_str());
     throw std::runtime_error(path_ + ": cannot be written");
   }

@@ -6,6 +6,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace firmtouch::log {
 namespace {
@@ -60,6 +62,11 @@ class FileSink : public Sink {
 };
 
 }  // namespace
+
+bool is_special(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_other(path, error) && !error;
+}
 
 std::unique_ptr<Sink> make_file(const std::string& path, std::string& problem) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
