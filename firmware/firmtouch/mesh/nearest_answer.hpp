@@ -285,7 +285,7 @@ template <class Finder, class Bound>
   // The carried bound may be higher only if the search was cut short.
   float lower_m = found.lower_m;
   if (!exact) {
-    const float carried_m = query::left_of(hint.lower_m, moved_m);
+    const float carried_m = query::lower_left_of(hint.lower_m, moved_m);
     if (carried_m > lower_m) lower_m = carried_m;
   }
   int8_t sign = 0;

@@ -10,7 +10,7 @@ Carried carry(const HintBase& hint, math::Vec3 position_m) {
   if (!(moved_m <= kMaxMotion_m)) return carried;
   carried.is_finite = true;
   carried.motion_m = moved_m;
-  carried.lower_m = left_of(hint.lower_m, moved_m);
+  carried.lower_m = lower_left_of(hint.lower_m, moved_m);
   if (carried.lower_m > 0.0f) carried.sign = hint.sign;
   return carried;
 }

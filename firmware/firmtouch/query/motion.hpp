@@ -20,4 +20,9 @@ static inline float left_of(float radius_m, float motion_m) {
   return math::larger(left_m, 0.0f);
 }
 
+/// The same of a lower bound. At rest it is kept whole: repeated for an hour it would be worn off.
+static inline float lower_left_of(float lower_m, float motion_m) {
+  return motion_m <= 0.0f ? math::larger(lower_m, 0.0f) : left_of(lower_m, motion_m);
+}
+
 }  // namespace firmtouch::query
