@@ -31,6 +31,11 @@ bool finite(const Closest& c) {
   return true;
 }
 
+void check_exact(const Closest& c, float truth) {
+  CHECK_EQ(c.certificate.exact, true);
+  CHECK_LE(__builtin_fabsf(c.distance_m - truth), 5e-7f * (truth + 3.9f));
+}
+
 }  // namespace
 
 TEST(EveryKindAnswersTheGlobalMinimumColdAndWarm) {
@@ -131,10 +136,7 @@ TEST(HintsOfRandomBitsAreOnlyHints) {
       CurveHint cold, bent;
       bent.foot = random.bits();
       const float truth = closest_point(view, p, kUnlimited, cold).distance_m;
-      const Closest c = closest_point(view, p, kUnlimited, bent);
-      CHECK_EQ(c.certificate.exact, true);
-      CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
-      CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
+      check_exact(closest_point(view, p, kUnlimited, bent), truth);
     }
   }
 }
@@ -156,10 +158,7 @@ TEST(AFrontierOfRandomWordsIsNoFrontier) {
     bent.frontier.count = static_cast<uint8_t>(random.bits() >> 24);
     bent.frontier.outside = 255;
     for (uint32_t& word : bent.frontier.node) word = random.bits() | 0x4000u;
-    const Closest c = closest_point(view, p, kUnlimited, bent);
-    CHECK_EQ(c.certificate.exact, true);
-    CHECK_LE(c.distance_m, truth + 5e-7f * (truth + 3.9f));
-    CHECK_GE(c.distance_m, truth - 5e-7f * (truth + 3.9f));
+    check_exact(closest_point(view, p, kUnlimited, bent), truth);
     CHECK_LE(bent.frontier.count, firmtouch::spline::Frontier::kMax);
   }
 }

@@ -155,21 +155,13 @@ constexpr Variant<K> variant() {
           find_nearest<K, kOrder, kUpper, true>};
 }
 
+template <class K, int... kPair>
+struct Variants {
+  static constexpr Variant<K> kAll[] = {variant<K, Order{kPair / 4}, Upper{kPair % 4}>()...};
+};
+
 /// Every order with every upper bound, over one kind of boxes.
 template <class K>
-inline constexpr Variant<K> kVariants[] = {
-    variant<K, Order::kDepthFirst, Upper::kNone>(),
-    variant<K, Order::kDepthFirst, Upper::kVertex>(),
-    variant<K, Order::kDepthFirst, Upper::kFarCorner>(),
-    variant<K, Order::kDepthFirst, Upper::kMinMax>(),
-    variant<K, Order::kBestFirst, Upper::kNone>(),
-    variant<K, Order::kBestFirst, Upper::kVertex>(),
-    variant<K, Order::kBestFirst, Upper::kFarCorner>(),
-    variant<K, Order::kBestFirst, Upper::kMinMax>(),
-    variant<K, Order::kBreadthFirst, Upper::kNone>(),
-    variant<K, Order::kBreadthFirst, Upper::kVertex>(),
-    variant<K, Order::kBreadthFirst, Upper::kFarCorner>(),
-    variant<K, Order::kBreadthFirst, Upper::kMinMax>(),
-};
+inline constexpr auto& kVariants = Variants<K, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11>::kAll;
 
 }  // namespace firmtouch::lab::orders
