@@ -7,21 +7,15 @@
 // Servo gets one spring with the force and the energy of all; the torque is yours to render.
 #include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/scene/tool.hpp"
-#include "firmtouch/servo/step.hpp"
-#include "hand.hpp"
+#include "proxy_tool.hpp"
 
 using namespace firmtouch;
 
 namespace {
 
-constexpr float kRadius_m = 0.003f, kTick_s = 0.001f, kStiffness_N_per_m = 1000.0f;
+constexpr float kRadius_m = 0.003f, kStiffness_N_per_m = 1000.0f;
 constexpr float kEdge_m = 0.03f;  // the table ends at this x; its top is z = 0
 constexpr scene::SphereLayout kBar[] = {{{-0.02f, 0, 0}, kRadius_m}, {{0.02f, 0, 0}, kRadius_m}};
-constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f,
-                                    /*slew_limit_N_per_s*/ 5000.0f,
-                                    /*ramp_in_s*/ 0.0f,
-                                    kTick_s,
-                                    {/*reservoir_J*/ 0.0015f}};
 
 // What the spheres touch. A mesh keeps a hint for each of them; a box needs none.
 struct Table {
@@ -33,31 +27,21 @@ struct Table {
   }
 };
 
-struct World {
+struct World : ProxyTool {
   Table table;
   scene::ToolTurn turn;
   scene::ToolTouch touch;
-  servo::State state;
-  servo::LocalModel model;
-  servo::StepOutput output;
   math::Vec3 hand_m{-0.02f, 0, 0.04f};
-  uint32_t now = 0;
+
+  World() { settings.energy.reservoir_J = 0.0015f; }
 
   void tick(math::Vec3 to_m) {
     hand_m = to_m;
-    turn.advance(kTick_s);
-    scene::ProxyContact contact;
+    turn.advance(settings.tick_period_s);
+    scene::ProxyContact contact = begin(hand_m, kStiffness_N_per_m);
     contact.settings.budget.work = 1000;
-    contact.material.stiffness_N_per_m = kStiffness_N_per_m;
-    contact.position_m = hand_m;
-    contact.has_proxy = state.has_proxy;
-    contact.is_on = true;
-    contact.passed_s = kTick_s;
-    scene::begin_model(model, hand_m, now, /*age_ticks*/ 2);
     scene::touch_by_tool(contact, scene::StoredTool(kBar), turn.rotation, table, touch, model);
-    const servo::StepInput input{hand_m, /*velocity_mps*/ {}, now++, /*enable*/ true};
-    output = servo::step(state, kSettings, model, input);
-    show(hand_m, output.force_N);
+    step(hand_m);
   }
   // In a straight line, then at rest.
   void go(float x_m, float z_m) {

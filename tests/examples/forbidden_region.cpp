@@ -6,17 +6,13 @@
 // The nerve is a row of capsules, and the tool touches the nearest, through a proxy that cannot
 // enter. An alarm is raised while the hand is on the wrong side.
 #include "firmtouch/scene/analytic.hpp"
-#include "firmtouch/scene/proxy_contact.hpp"
-#include "firmtouch/servo/step.hpp"
-#include "hand.hpp"
+#include "proxy_tool.hpp"
 
 using namespace firmtouch;
 
 namespace {
 
 constexpr float kSleeve_m = 0.005f, kTool_m = 0.002f;
-constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f, /*slew_limit_N_per_s*/ 5000.0f,
-                                    /*ramp_in_s*/ 0.0f, /*tick_period_s*/ 0.001f};
 constexpr uint32_t kPieces = 2;
 
 // A shape made of shapes answers with the nearest of them. Its bound is the least of theirs: of the
@@ -41,26 +37,15 @@ struct Nerve {  // two capsules that meet at an obtuse angle
 
 Nerve nerve;
 scene::ProxyTouch touch;
-servo::State state;
-servo::LocalModel model;
-servo::StepOutput output;
+ProxyTool tool;
 bool alarm;
 
-void tick(uint32_t number, math::Vec3 position_m) {
-  scene::ProxyContact contact;
+void tick(math::Vec3 position_m) {
+  scene::ProxyContact contact = tool.begin(position_m, 2000.0f);
   contact.settings.radius_m = kTool_m;
-  contact.material.stiffness_N_per_m = 2000.0f;
-  contact.position_m = position_m;
-  contact.proxy_m = output.proxy_m;
-  contact.has_proxy = state.has_proxy;
-  contact.is_on = true;
-  contact.passed_s = kSettings.tick_period_s;
-  scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
-  scene::touch_by_proxy(contact, nerve, touch, model);
-  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
-  output = servo::step(state, kSettings, model, input);
-  show(position_m, output.force_N);
-  const math::Vec3 at_m = output.proxy_m;
+  scene::touch_by_proxy(contact, nerve, touch, tool.model);
+  tool.step(position_m);
+  const math::Vec3 at_m = tool.output.proxy_m;
   const float x_m = position_m.x - at_m.x, y_m = position_m.y - at_m.y, z_m = position_m.z - at_m.z;
   alarm = x_m * x_m + y_m * y_m + z_m * z_m > 1e-8f;
 }
@@ -78,7 +63,7 @@ bool is_bound_of_both() {
 
 // The proxy is where the force pulls the hand to: never nearer to the nerve than the tool's radius.
 bool is_outside() {
-  const scene::Near near = nerve.near(output.proxy_m, {}, 0);
+  const scene::Near near = nerve.near(tool.output.proxy_m, {}, 0);
   return near.sign > 0 && near.distance_m > 0.999f * kTool_m;
 }
 
@@ -88,29 +73,27 @@ int main() {
   nerve.piece[0] = {{{-0.04f, 0, 0}, {0, 0, 0}}, kSleeve_m};
   nerve.piece[1] = {{{0, 0, 0}, {0.03f, 0.02f, 0}}, kSleeve_m};
   bool is_right = is_bound_of_both();
-  uint32_t now = 0;
   // Down to it from 20 mm above, at 20 mm/s, and on to 12 mm below.
   for (int i = 1000; i >= -600; --i) {
     const float height_m = 0.00002f * static_cast<float>(i);
-    tick(now++, {-0.02f, 0, height_m});
+    tick({-0.02f, 0, height_m});
     const float depth_m = kSleeve_m + kTool_m - height_m;
     is_right &= is_outside() && (depth_m < 0.00009f ? !alarm : depth_m < 0.00011f || alarm);
     const float spring_N = depth_m > 0 ? 2000.0f * depth_m : 0;
     if (depth_m < 0.0039f)
-      is_right &= is_between(output.force_N.z, spring_N - 0.02f, spring_N + 0.02f);
+      is_right &= is_between(tool.output.force_N.z, spring_N - 0.02f, spring_N + 0.02f);
   }
-  is_right &= is_between(output.proxy_m.z, 0.00699f, 0.00701f);  // where it came from
-  is_right &= is_between(output.force_N.z, 7.9f, 8.0f);          // at the limit
+  is_right &= is_between(tool.output.proxy_m.z, 0.00699f, 0.00701f);  // where it came from
+  is_right &= is_between(tool.output.force_N.z, 7.9f, 8.0f);          // at the limit
   // 3 mm deep along the nerve, round its bend, to the other piece: no step, and never inside.
-  for (int i = -600; i <= 200; ++i) tick(now++, {-0.02f, 0, 0.00002f * static_cast<float>(i)});
+  for (int i = -600; i <= 200; ++i) tick({-0.02f, 0, 0.00002f * static_cast<float>(i)});
   for (int i = -1000; i <= 1250; ++i) {
     const float along_m = 0.00002f * static_cast<float>(i);
-    tick(now++, {along_m, along_m > 0 ? along_m * 2 / 3 : 0, 0.004f});
-    is_right &= is_outside() && is_between(output.force_N.z, 5.9f, 6.1f) && alarm;
+    tick({along_m, along_m > 0 ? along_m * 2 / 3 : 0, 0.004f});
+    is_right &= is_outside() && is_between(tool.output.force_N.z, 5.9f, 6.1f) && alarm;
   }
   // Up and away: free.
-  for (int i = 200; i <= 1000; ++i)
-    tick(now++, {0.025f, 0.0166f, 0.00002f * static_cast<float>(i)});
-  is_right &= is_between(output.force_N.z, 0, 0) && !alarm;
-  return is_right && output.faults == 0 ? 0 : 1;
+  for (int i = 200; i <= 1000; ++i) tick({0.025f, 0.0166f, 0.00002f * static_cast<float>(i)});
+  is_right &= is_between(tool.output.force_N.z, 0, 0) && !alarm;
+  return is_right && tool.output.faults == 0 ? 0 : 1;
 }

@@ -4,9 +4,7 @@
 // A shape of your own is a struct that answers one query: what is near a point? The proxy does the
 // rest: the ball of the tool never enters the ring, and a spring ties the hand to it.
 #include "firmtouch/math/elementary.hpp"
-#include "firmtouch/scene/proxy_contact.hpp"
-#include "firmtouch/servo/step.hpp"
-#include "hand.hpp"
+#include "proxy_tool.hpp"
 
 using namespace firmtouch;
 
@@ -49,52 +47,36 @@ struct Torus {
 };
 
 Torus torus{/*ring_m*/ 0.03f, /*tube_m*/ 0.008f};
-constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f, /*slew_limit_N_per_s*/ 5000.0f,
-                                    /*ramp_in_s*/ 0.0f, /*tick_period_s*/ 0.001f};
 scene::ProxyTouch touch;
-servo::State state;
-servo::LocalModel model;
-servo::StepOutput output;
+ProxyTool tool;
 
-math::Vec3 tick(uint32_t number, math::Vec3 position_m) {
-  scene::ProxyContact contact;
+math::Vec3 tick(math::Vec3 position_m) {
+  scene::ProxyContact contact = tool.begin(position_m, 800.0f);
   contact.settings.radius_m = 0.003f;
-  contact.material.stiffness_N_per_m = 800.0f;
-  contact.position_m = position_m;
-  contact.proxy_m = output.proxy_m;
-  contact.has_proxy = state.has_proxy;
-  contact.is_on = true;
-  contact.passed_s = kSettings.tick_period_s;
-  scene::begin_model(model, position_m, number, /*age_ticks*/ 2);
-  scene::touch_by_proxy(contact, torus, touch, model);
-  const servo::StepInput input{position_m, /*velocity_mps*/ {}, number, /*enable*/ true};
-  output = servo::step(state, kSettings, model, input);
-  show(position_m, output.force_N);
-  return output.force_N;
+  scene::touch_by_proxy(contact, torus, touch, tool.model);
+  return tool.step(position_m);
 }
 
 }  // namespace
 
 int main() {
   bool is_right = true;
-  uint32_t now = 0;
   math::Vec3 force_N;
   // Through the ring along its axis: nothing is there.
   for (int i = 2000; i >= -2000; --i) {
-    force_N = tick(now++, {0, 0, 0.00002f * static_cast<float>(i)});
+    force_N = tick({0, 0, 0.00002f * static_cast<float>(i)});
     is_right &= is_near(force_N.x, 0) && is_near(force_N.y, 0) && is_near(force_N.z, 0);
   }
   // Outwards below it, and up against its underside, 3 mm deep: 2.4 N down.
-  for (int i = 0; i <= 1500; ++i) tick(now++, {0.00002f * static_cast<float>(i), 0, -0.04f});
-  for (int i = 2000; i >= 400; --i)
-    force_N = tick(now++, {0.03f, 0, -0.00002f * static_cast<float>(i)});
+  for (int i = 0; i <= 1500; ++i) tick({0.00002f * static_cast<float>(i), 0, -0.04f});
+  for (int i = 2000; i >= 400; --i) force_N = tick({0.03f, 0, -0.00002f * static_cast<float>(i)});
   is_right &= is_near(force_N.z, -2.4f) && is_near(force_N.x, 0);
   // On through the whole ring and out above it: the proxy has stayed below.
   for (int i = 400; i >= -1000; --i) {
-    tick(now++, {0.03f, 0, -0.00002f * static_cast<float>(i)});
-    const math::Vec3 at_m = output.proxy_m;
+    tick({0.03f, 0, -0.00002f * static_cast<float>(i)});
+    const math::Vec3 at_m = tool.output.proxy_m;
     is_right &= torus.near(at_m, {}, 0).sign > 0 && torus.near(at_m, {}, 0).distance_m > 0.0029f;
   }
-  is_right &= output.proxy_m.z < 0 && output.force_N.z < -7.9f;  // at the limit
-  return is_right && output.faults == 0 ? 0 : 1;
+  is_right &= tool.output.proxy_m.z < 0 && tool.output.force_N.z < -7.9f;  // at the limit
+  return is_right && tool.output.faults == 0 ? 0 : 1;
 }

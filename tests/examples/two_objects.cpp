@@ -7,19 +7,13 @@
 #include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/scene/objects.hpp"
 #include "firmtouch/servo/fault.hpp"
-#include "firmtouch/servo/step.hpp"
-#include "hand.hpp"
+#include "proxy_tool.hpp"
 
 using namespace firmtouch;
 
 namespace {
 
-constexpr float kTool_m = 0.003f, kBall_m = 0.02f, kTick_s = 0.001f;
-constexpr servo::Settings kSettings{/*force_limit_N*/ 8.0f,
-                                    /*slew_limit_N_per_s*/ 5000.0f,
-                                    /*ramp_in_s*/ 0.0f,
-                                    kTick_s,
-                                    {/*reservoir_J*/ 0.0015f}};
+constexpr float kTool_m = 0.003f, kBall_m = 0.02f;
 
 // The shapes, each about its own origin: a switch is all that several kinds need.
 struct Shapes {
@@ -32,17 +26,14 @@ struct Shapes {
   }
 };
 
-struct World {
+struct World : ProxyTool {
   Shapes shapes;
   scene::Object object[3];  // the table, the ball, a wall
   scene::ObjectPair pair[3];
   scene::ObjectsTouch touch;
-  servo::State state;
-  servo::LocalModel model;
-  servo::StepOutput output;
-  uint32_t now = 0;
 
   explicit World(float wall_x_m) {
+    settings.energy.reservoir_J = 0.0015f;
     object[1].pose.translation_m = {-0.0555f, 0, kBall_m};
     object[1].twist.velocity_mps = {0.05f, 0, 0};
     object[1].twist.turn_rad_per_s = {0, 0.05f / kBall_m, 0};  // it rolls
@@ -52,21 +43,11 @@ struct World {
   }
 
   math::Vec3 tick(math::Vec3 hand_m) {
-    for (scene::Object& each : object) scene::advance(each, kTick_s);
-    scene::ProxyContact contact;
+    for (scene::Object& each : object) scene::advance(each, settings.tick_period_s);
+    scene::ProxyContact contact = begin(hand_m, 1000.0f);
     contact.settings.radius_m = kTool_m;
-    contact.material.stiffness_N_per_m = 1000.0f;
-    contact.position_m = hand_m;
-    contact.proxy_m = output.proxy_m;
-    contact.has_proxy = state.has_proxy;
-    contact.is_on = true;
-    contact.passed_s = kTick_s;
-    scene::begin_model(model, hand_m, now, /*age_ticks*/ 2);
     scene::touch_objects(contact, {object, pair, 3}, shapes, touch, model);
-    const servo::StepInput input{hand_m, /*velocity_mps*/ {}, now++, /*enable*/ true};
-    output = servo::step(state, kSettings, model, input);
-    show(hand_m, output.force_N);
-    return output.force_N;
+    return step(hand_m);
   }
 };
 
