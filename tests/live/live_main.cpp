@@ -314,12 +314,9 @@ void serial(Test& test) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  if (count < 5) {
-    std::fprintf(stderr, "usage: live_page BROWSER URL CONTROLLER_PID FOLDER [PICTURES]\n");
-    return 2;
-  }
-  Test test(words[1], words[4], words[5]);  // null behind the last word
+// live_page BROWSER URL CONTROLLER_PID FOLDER [PICTURES]
+int main(int, char** words) {
+  Test test(words);
   if (!test.check("the browser opens the page", test.browser.open(words[2], 1600, 1000))) return 1;
   if (test.check("it connects to the controller", test.becomes(kConnected, kConnect_s))) {
     const double first = test.number("page.session.records");

@@ -15,8 +15,9 @@ struct PageTest {
   std::string pictures;  // the folder they are saved in; empty: none is
   int passed = 0, failed = 0;
 
-  PageTest(const std::string& program, const std::string& folder, const char* pictures_folder)
-      : browser(program, folder), pictures(pictures_folder == nullptr ? "" : pictures_folder) {}
+  /// `words`: the command line: PROGRAM BROWSER, two of the test, FOLDER [PICTURES].
+  explicit PageTest(char** words)
+      : browser(words[1], words[4]), pictures(words[5] == nullptr ? "" : words[5]) {}
   /// Whether `expression` becomes true in the page within the time.
   bool becomes(const std::string& expression, double max_s = 10) {
     using Clock = std::chrono::steady_clock;

@@ -174,12 +174,9 @@ void links(Test& test) {
 
 }  // namespace
 
-int main(int count, char** words) {
-  if (count < 5) {
-    std::fprintf(stderr, "usage: report_page BROWSER URL URL_OF_A_LINKAGE FOLDER [PICTURES]\n");
-    return 2;
-  }
-  Test test(words[1], words[4], words[5]);  // null behind the last word
+// report_page BROWSER URL URL_OF_A_LINKAGE FOLDER [PICTURES]
+int main(int, char** words) {
+  Test test(words);
   if (!test.check("the browser opens the report", test.browser.open(words[2], 1440, 1000)))
     return 1;
   test.check("it has its charts and its name",
