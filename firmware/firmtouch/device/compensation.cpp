@@ -33,22 +33,18 @@ bool check_friction(const CompensationLayout& of, const StoredLinkage& linkage,
 }  // namespace
 
 template <>
-core::Bytes Compensation::before(core::Bytes section) {
-  if (section.size() < sizeof(LinkageLayout) + sizeof(CompensationLayout)) return section;
-  const uint32_t before = section.size() - uint32_t{sizeof(CompensationLayout)};
+bool Compensation::is_in(core::Bytes section) {
+  if (section.size() < sizeof(LinkageLayout) + sizeof(CompensationLayout)) return false;
   uint32_t tag;
-  __builtin_memcpy(&tag, section.data() + before, sizeof tag);
-  return tag == kCompensationTag ? core::Bytes{section.data(), before} : section;
+  __builtin_memcpy(&tag, section.data() + rest_of(section), sizeof tag);
+  return tag == kCompensationTag;
 }
 
 template <>
-core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linkage) {
-  layout_ = nullptr;
-  const CompensationLayout* const compensation = find(section);
-  if (compensation == nullptr) return core::kPassed;
+core::Verdict Compensation::check(core::Bytes, const StoredLinkage& linkage) const {
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    const float spring = compensation->spring_Nm_per_rad[k], relaxed = compensation->relaxed_rad[k];
+    const float spring = layout().spring_Nm_per_rad[k], relaxed = layout().relaxed_rad[k];
     if (is_zero(spring) && is_zero(relaxed)) continue;
     if (!(spring > 0.0f && spring <= kMaxSpring_Nm_per_rad && k < linkage.layout().joints))
       return reject(kRuleCompensation, k);
@@ -57,11 +53,9 @@ core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linka
     has_one = true;
   }
   core::Verdict verdict = core::kPassed;
-  has_one |= check_friction(*compensation, linkage, verdict);
-  if (!verdict.ok()) return verdict;
-  if (!has_one) return reject(kRuleCompensation, 3 * kMaxJoints + 1);
-  layout_ = compensation;
-  return core::kPassed;
+  has_one |= check_friction(layout(), linkage, verdict);
+  if (!verdict.ok() || has_one) return verdict;
+  return reject(kRuleCompensation, 3 * kMaxJoints + 1);
 }
 
 math::Vec3 spring_torques_Nm(const Compensation& compensation,

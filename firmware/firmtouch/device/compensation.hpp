@@ -8,9 +8,9 @@ namespace firmtouch::device {
 /// other word of a section.
 using Compensation = FurtherPart<CompensationLayout>;
 template <>
-core::Bytes Compensation::before(core::Bytes section);
+bool Compensation::is_in(core::Bytes section);
 template <>
-core::Verdict Compensation::open(core::Bytes section, const StoredLinkage& linkage);
+core::Verdict Compensation::check(core::Bytes section, const StoredLinkage& linkage) const;
 
 /// Torques of the springs on the joints: stiffness x (relaxed angle - angle).
 /// Pre: compensation.is_open(). Bounds: constant. Result: finite for angles within 200 rad.

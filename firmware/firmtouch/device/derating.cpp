@@ -14,33 +14,26 @@ constexpr float kMinWarming_s = 0.1f;
 constexpr float kMaxTime_s = 1e4f;
 constexpr float kFadingShare = 0.25f;  // of the heat, in which the limit falls
 
-// Index pulses need homing: without it their size would be that of homing with second encoders.
-bool is_before(uint32_t size) {
-  constexpr uint32_t kHomed = sizeof(HomedLinkageLayout), kSecond = sizeof(SecondEncodersLayout);
-  return size == sizeof(LinkageLayout) || size == sizeof(LinkageLayout) + kSecond ||
-         size == kHomed || size == kHomed + kSecond || size == kHomed + sizeof(IndexLayout);
-}
-
 }  // namespace
 
+// Index pulses need homing: without it their size would be that of homing with second encoders.
 template <>
-core::Bytes Derating::before(core::Bytes section) {
-  const uint32_t before = section.size() - uint32_t{sizeof(DeratingLayout)};  // may wrap
-  return is_before(before) ? core::Bytes{section.data(), before} : section;
+bool Derating::is_in(core::Bytes section) {
+  constexpr uint32_t kHomed = sizeof(HomedLinkageLayout), kSecond = sizeof(SecondEncodersLayout);
+  const uint32_t rest = rest_of(section);  // may wrap
+  return rest == sizeof(LinkageLayout) || rest == sizeof(LinkageLayout) + kSecond ||
+         rest == kHomed || rest == kHomed + kSecond || rest == kHomed + sizeof(IndexLayout);
 }
 
 template <>
-core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage) {
-  layout_ = nullptr;
-  const DeratingLayout* const derating = find(section);
-  if (derating == nullptr) return core::kPassed;
+core::Verdict Derating::check(core::Bytes section, const StoredLinkage& linkage) const {
   // Homing measures by its torque, so it must have it.
   const HomingLayout* homing = nullptr;
   if (section.size() >= sizeof(HomedLinkageLayout) + sizeof(DeratingLayout))
     homing = &core::as_array<HomedLinkageLayout>(section, 1)[0].homing;
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    const float continuous_Nm = derating->continuous_Nm[k], time_s = derating->time_s[k];
+    const float continuous_Nm = layout().continuous_Nm[k], time_s = layout().time_s[k];
     if (is_zero(continuous_Nm) && is_zero(time_s)) continue;
     const float largest_Nm = linkage.layout().max_torque_Nm[k];  // 0 of no joint
     const float least_Nm = homing != nullptr ? homing->torque_Nm[k] : 0.0f;
@@ -51,9 +44,7 @@ core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage) 
       return reject(kRuleDerating, kMaxJoints + k);
     has_one = true;
   }
-  if (!has_one) return reject(kRuleDerating, 2 * kMaxJoints);
-  layout_ = derating;
-  return core::kPassed;
+  return has_one ? core::kPassed : reject(kRuleDerating, 2 * kMaxJoints);
 }
 
 void heat(HeatState& state, const Derating& derating, const StoredLinkage& linkage,

@@ -8,9 +8,9 @@ namespace firmtouch::device {
 /// As an asset stores them, behind all else of the linkage.
 using Derating = FurtherPart<DeratingLayout>;
 template <>
-core::Bytes Derating::before(core::Bytes section);
+bool Derating::is_in(core::Bytes section);
 template <>
-core::Verdict Derating::open(core::Bytes section, const StoredLinkage& linkage);
+core::Verdict Derating::check(core::Bytes section, const StoredLinkage& linkage) const;
 
 /// Heat x of each winding in units of its continuous torque's square: x' = (torque^2 - x) / T.
 /// Initially that of the continuous torque: a motor may be hot after a reset.

@@ -71,35 +71,27 @@ int32_t interval_at(const JointIndex& index, int32_t pulse, int32_t now, int32_t
 }  // namespace
 
 template <>
-core::Bytes IndexPulses::before(core::Bytes section) {
-  constexpr uint32_t kHomed = sizeof(HomedLinkageLayout);
-  return section.size() == kHomed + sizeof(IndexLayout) ? core::Bytes{section.data(), kHomed}
-                                                        : section;
+bool IndexPulses::is_in(core::Bytes section) {
+  return section.size() == sizeof(HomedLinkageLayout) + sizeof(IndexLayout);
 }
 
 template <>
-core::Verdict IndexPulses::open(core::Bytes section, const StoredLinkage& linkage,
-                                const StoredHoming& homing) {
-  layout_ = nullptr;
-  const IndexLayout* const layout = find(section);
-  if (layout == nullptr) return core::kPassed;
+core::Verdict IndexPulses::check(core::Bytes, const StoredLinkage& linkage,
+                                 const StoredHoming& homing) const {
   if (homing.layout().by != static_cast<uint32_t>(HomeBy::kStops)) return reject(kRuleIndex);
-  IndexPulses found;
-  found.layout_ = layout;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
     if (k >= linkage.layout().joints) {
-      if (!is_zero(layout->index_rad[k]) || !is_zero(layout->period_rad[k]))
+      if (!is_zero(layout().index_rad[k]) || !is_zero(layout().period_rad[k]))
         return reject(kRuleIndex, 1 + k);
       continue;
     }
-    const JointIndex index = index_of(found, linkage, k);
+    const JointIndex index = index_of(*this, linkage, k);
     if (!(index.period >= kMinPeriod_counts)) return reject(kRuleIndex, 1 + k);
     if (!(index.within >= kMinWithin_counts && index.within <= kMaxWithin_counts))
       return reject(kRuleIndex, 1 + kMaxJoints + k);
   }
-  if (!check_homing(settings_of(homing, found), linkage.joints({Estimator::kDifference, 1})))
+  if (!check_homing(settings_of(homing, *this), linkage.joints({Estimator::kDifference, 1})))
     return reject(kRuleIndex, 1 + 2 * kMaxJoints);
-  layout_ = layout;
   return core::kPassed;
 }
 

@@ -11,10 +11,10 @@ namespace firmtouch::device {
 /// As an asset stores them, behind the linkage and its homing.
 using IndexPulses = FurtherPart<IndexLayout, StoredHoming>;
 template <>
-core::Bytes IndexPulses::before(core::Bytes section);
+bool IndexPulses::is_in(core::Bytes section);
 template <>
-core::Verdict IndexPulses::open(core::Bytes section, const StoredLinkage& linkage,
-                                const StoredHoming& homing);
+core::Verdict IndexPulses::check(core::Bytes section, const StoredLinkage& linkage,
+                                 const StoredHoming& homing) const;
 
 /// Homing by them. Pre: both are open.
 HomingSettings settings_of(const StoredHoming& homing, const IndexPulses& index);

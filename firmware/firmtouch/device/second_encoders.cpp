@@ -29,33 +29,27 @@ float ratio_of(const SecondEncodersLayout& second, const LinkageLayout& linkage,
 }  // namespace
 
 template <>
-core::Bytes SecondEncoders::before(core::Bytes section) {
+bool SecondEncoders::is_in(core::Bytes section) {
   constexpr uint32_t kSecond = sizeof(SecondEncodersLayout);
-  const bool has_second = section.size() == sizeof(LinkageLayout) + kSecond ||
-                          section.size() == sizeof(HomedLinkageLayout) + kSecond;
-  return has_second ? core::Bytes{section.data(), section.size() - kSecond} : section;
+  return section.size() == sizeof(LinkageLayout) + kSecond ||
+         section.size() == sizeof(HomedLinkageLayout) + kSecond;
 }
 
 template <>
-core::Verdict SecondEncoders::open(core::Bytes section, const StoredLinkage& linkage) {
-  layout_ = nullptr;
-  const SecondEncodersLayout* const second = find(section);
-  if (second == nullptr) return core::kPassed;
+core::Verdict SecondEncoders::check(core::Bytes, const StoredLinkage& linkage) const {
   bool has_one = false;
   for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    if (is_zero(second->counts_per_rad[k])) continue;
-    const float scale = size(second->counts_per_rad[k]);
+    if (is_zero(layout().counts_per_rad[k])) continue;
+    const float scale = size(layout().counts_per_rad[k]);
     if (k >= linkage.layout().joints || !(scale >= 1.0f && scale <= kMaxSecondCountsPerRad))
       return reject(kRuleSecondEncoder, k);
-    const float within = second->within_rad * scale;
-    if (!(within >= kMinWithin_counts + size(ratio_of(*second, linkage.layout(), k)) &&
+    const float within = layout().within_rad * scale;
+    if (!(within >= kMinWithin_counts + size(ratio_of(layout(), linkage.layout(), k)) &&
           within <= kMaxWithin_counts))
       return reject(kRuleSecondEncoder, kMaxJoints + k);
     has_one = true;
   }
-  if (!has_one) return reject(kRuleSecondEncoder, 2 * kMaxJoints);
-  layout_ = second;
-  return core::kPassed;
+  return has_one ? core::kPassed : reject(kRuleSecondEncoder, 2 * kMaxJoints);
 }
 
 void align(SecondState& state, const Sample& sample, uint32_t second) {

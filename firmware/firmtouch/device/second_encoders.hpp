@@ -10,9 +10,9 @@ namespace firmtouch::device {
 /// As an asset stores them, behind the linkage and its homing.
 using SecondEncoders = FurtherPart<SecondEncodersLayout>;
 template <>
-core::Bytes SecondEncoders::before(core::Bytes section);
+bool SecondEncoders::is_in(core::Bytes section);
 template <>
-core::Verdict SecondEncoders::open(core::Bytes section, const StoredLinkage& linkage);
+core::Verdict SecondEncoders::check(core::Bytes section, const StoredLinkage& linkage) const;
 
 /// What the first encoder of each joint counted where both are taken to agree, and how far the
 /// second has turned since.

@@ -39,20 +39,29 @@ class StoredLinkage : public StoredPart<LinkageLayout> {
 template <class Layout, class... Needed>
 class FurtherPart : public StoredPart<Layout> {
  public:
-  /// What is before it in a section of type kLinkageSection.
-  static core::Bytes before(core::Bytes section);
+  /// Whether a section of type kLinkageSection ends with it.
+  static bool is_in(core::Bytes section);
+  /// What is before it.
+  static core::Bytes before(core::Bytes section) {
+    return is_in(section) ? core::Bytes{section.data(), rest_of(section)} : section;
+  }
 
   /// Proves it. It is open only where the section has it and the verdict is passed. The bytes must
   /// outlive it. Pre: `linkage` and `needed` are open, of this section. Bounds: constant.
-  core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Needed&... needed);
+  core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Needed&... needed) {
+    this->layout_ = nullptr;
+    if (!is_in(section)) return core::kPassed;
+    this->layout_ =
+        core::as_array<Layout>({section.data() + rest_of(section), sizeof(Layout)}, 1).data();
+    const core::Verdict verdict = check(section, linkage, needed...);
+    if (!verdict.ok()) this->layout_ = nullptr;
+    return verdict;
+  }
 
  private:
-  // Null: the section has none.
-  static const Layout* find(core::Bytes section) {
-    const uint32_t rest = before(section).size();
-    if (rest == section.size()) return nullptr;
-    return core::as_array<Layout>({section.data() + rest, sizeof(Layout)}, 1).data();
-  }
+  static uint32_t rest_of(core::Bytes section) { return section.size() - uint32_t{sizeof(Layout)}; }
+  core::Verdict check(core::Bytes section, const StoredLinkage& linkage,
+                      const Needed&... needed) const;
 };
 
 /// Proves a section of type kLinkageSection; `to` is open where the verdict is passed. The bytes
