@@ -53,4 +53,11 @@ class CriticalSection {
 
 using Handler = void (*)();
 
+/// Vectors behind the core's, up to that of the only interrupt that is enabled.
+template <uint32_t kNumber>
+struct BoardVectors {
+  Handler unused[kNumber];
+  Handler handler;
+};
+
 }  // namespace firmtouch::hal

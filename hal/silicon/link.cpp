@@ -14,12 +14,8 @@ namespace {
 
 ByteRing g_received;
 
-struct BoardVectors {
-  Handler unused[kLinkInterrupt];  // not enabled
-  Handler link;
-};
-
-[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{}, link_handler};
+[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors<kLinkInterrupt> kBoardVectors = {
+    {}, link_handler};
 
 }  // namespace
 

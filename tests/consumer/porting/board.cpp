@@ -11,12 +11,8 @@ extern "C" void link_handler();
 namespace firmtouch::hal {
 namespace {
 
-// Behind the core's vectors, in the order of their numbers.
-struct BoardVectors {
-  Handler unused[kLinkInterrupt];  // not enabled
-  Handler link;
-};
-[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors kBoardVectors = {{}, link_handler};
+[[gnu::section(".vectors.board"), gnu::used]] const BoardVectors<kLinkInterrupt> kBoardVectors = {
+    {}, link_handler};
 
 }  // namespace
 
