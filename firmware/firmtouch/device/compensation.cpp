@@ -32,11 +32,10 @@ bool check_friction(const CompensationLayout& of, const StoredLinkage& linkage,
 
 }  // namespace
 
-template <>
-bool Compensation::is_in(core::Bytes section) {
+bool CompensationLayout::is_in(core::Bytes section) {
   if (section.size() < sizeof(LinkageLayout) + sizeof(CompensationLayout)) return false;
   uint32_t tag;
-  __builtin_memcpy(&tag, section.data() + rest_of(section), sizeof tag);
+  __builtin_memcpy(&tag, section.data() + section.size() - sizeof(CompensationLayout), sizeof tag);
   return tag == kCompensationTag;
 }
 

@@ -8,8 +8,6 @@ namespace firmtouch::device {
 /// other word of a section.
 using Compensation = FurtherPart<CompensationLayout>;
 template <>
-bool Compensation::is_in(core::Bytes section);
-template <>
 core::Verdict Compensation::check(core::Bytes section, const StoredLinkage& linkage) const;
 
 /// Torques of the springs on the joints: stiffness x (relaxed angle - angle).

@@ -17,10 +17,9 @@ constexpr float kFadingShare = 0.25f;  // of the heat, in which the limit falls
 }  // namespace
 
 // Index pulses need homing: without it their size would be that of homing with second encoders.
-template <>
-bool Derating::is_in(core::Bytes section) {
+bool DeratingLayout::is_in(core::Bytes section) {
   constexpr uint32_t kHomed = sizeof(HomedLinkageLayout), kSecond = sizeof(SecondEncodersLayout);
-  const uint32_t rest = rest_of(section);  // may wrap
+  const uint32_t rest = section.size() - uint32_t{sizeof(DeratingLayout)};  // may wrap
   return rest == sizeof(LinkageLayout) || rest == sizeof(LinkageLayout) + kSecond ||
          rest == kHomed || rest == kHomed + kSecond || rest == kHomed + sizeof(IndexLayout);
 }

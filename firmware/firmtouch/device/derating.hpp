@@ -8,8 +8,6 @@ namespace firmtouch::device {
 /// As an asset stores them, behind all else of the linkage.
 using Derating = FurtherPart<DeratingLayout>;
 template <>
-bool Derating::is_in(core::Bytes section);
-template <>
 core::Verdict Derating::check(core::Bytes section, const StoredLinkage& linkage) const;
 
 /// Heat x of each winding in units of its continuous torque's square: x' = (torque^2 - x) / T.

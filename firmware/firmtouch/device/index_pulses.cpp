@@ -70,8 +70,7 @@ int32_t interval_at(const JointIndex& index, int32_t pulse, int32_t now, int32_t
 
 }  // namespace
 
-template <>
-bool IndexPulses::is_in(core::Bytes section) {
+bool IndexLayout::is_in(core::Bytes section) {
   return section.size() == sizeof(HomedLinkageLayout) + sizeof(IndexLayout);
 }
 

@@ -11,8 +11,6 @@ namespace firmtouch::device {
 /// As an asset stores them, behind the linkage and its homing.
 using IndexPulses = FurtherPart<IndexLayout, StoredHoming>;
 template <>
-bool IndexPulses::is_in(core::Bytes section);
-template <>
 core::Verdict IndexPulses::check(core::Bytes section, const StoredLinkage& linkage,
                                  const StoredHoming& homing) const;
 

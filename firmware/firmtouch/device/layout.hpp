@@ -2,6 +2,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "firmtouch/core/span.hpp"
+
 // Byte layout of a linkage in an asset (tools/FORMAT.md, section 3d). Little-endian.
 namespace firmtouch::device {
 
@@ -59,6 +61,8 @@ struct IndexLayout {
   float index_rad[3];   // the angle of a pulse
   float period_rad[3];  // from one to the next
   float within_rad;     // by which a pulse may be off once the joints are homed
+
+  static bool is_in(core::Bytes section);  // whether a section ends with it
 };
 static_assert(sizeof(IndexLayout) == 28);
 
@@ -67,6 +71,8 @@ static_assert(sizeof(IndexLayout) == 28);
 struct SecondEncodersLayout {
   float counts_per_rad[3];  // 0: the joint has none
   float within_rad;         // by which the two may differ
+
+  static bool is_in(core::Bytes section);  // whether a section ends with it
 };
 static_assert(sizeof(SecondEncodersLayout) == 16);
 
@@ -75,6 +81,8 @@ static_assert(sizeof(SecondEncodersLayout) == 16);
 struct DeratingLayout {
   float continuous_Nm[3];  // the torque that a motor may have for ever
   float time_s[3];         // thermal time constant of its winding
+
+  static bool is_in(core::Bytes section);  // whether a section ends with it
 };
 static_assert(sizeof(DeratingLayout) == 24);
 
@@ -87,6 +95,8 @@ struct CompensationLayout {
   float friction_Nm[3];  // Coulomb friction
   float friction_share;  // of it that the motors carry; 0: none
   float friction_fade_rad_per_s;
+
+  static bool is_in(core::Bytes section);  // whether a section ends with it
 };
 static_assert(sizeof(CompensationLayout) == 48);
 

@@ -28,8 +28,7 @@ float ratio_of(const SecondEncodersLayout& second, const LinkageLayout& linkage,
 
 }  // namespace
 
-template <>
-bool SecondEncoders::is_in(core::Bytes section) {
+bool SecondEncodersLayout::is_in(core::Bytes section) {
   constexpr uint32_t kSecond = sizeof(SecondEncodersLayout);
   return section.size() == sizeof(LinkageLayout) + kSecond ||
          section.size() == sizeof(HomedLinkageLayout) + kSecond;

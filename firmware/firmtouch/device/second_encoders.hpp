@@ -10,8 +10,6 @@ namespace firmtouch::device {
 /// As an asset stores them, behind the linkage and its homing.
 using SecondEncoders = FurtherPart<SecondEncodersLayout>;
 template <>
-bool SecondEncoders::is_in(core::Bytes section);
-template <>
 core::Verdict SecondEncoders::check(core::Bytes section, const StoredLinkage& linkage) const;
 
 /// What the first encoder of each joint counted where both are taken to agree, and how far the

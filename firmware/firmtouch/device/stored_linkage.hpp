@@ -39,18 +39,16 @@ class StoredLinkage : public StoredPart<LinkageLayout> {
 template <class Layout, class... Needed>
 class FurtherPart : public StoredPart<Layout> {
  public:
-  /// Whether a section of type kLinkageSection ends with it.
-  static bool is_in(core::Bytes section);
-  /// What is before it.
+  /// What is before it in a section of type kLinkageSection.
   static core::Bytes before(core::Bytes section) {
-    return is_in(section) ? core::Bytes{section.data(), rest_of(section)} : section;
+    return Layout::is_in(section) ? core::Bytes{section.data(), rest_of(section)} : section;
   }
 
   /// Proves it. It is open only where the section has it and the verdict is passed. The bytes must
   /// outlive it. Pre: `linkage` and `needed` are open, of this section. Bounds: constant.
   core::Verdict open(core::Bytes section, const StoredLinkage& linkage, const Needed&... needed) {
     this->layout_ = nullptr;
-    if (!is_in(section)) return core::kPassed;
+    if (!Layout::is_in(section)) return core::kPassed;
     this->layout_ =
         core::as_array<Layout>({section.data() + rest_of(section), sizeof(Layout)}, 1).data();
     const core::Verdict verdict = check(section, linkage, needed...);
