@@ -77,6 +77,24 @@ Reply reply_to(AppProcess& app, uint8_t type, const Request& request, uint8_t re
   return reply;
 }
 
+// Of 300 messages one acknowledges a command, and one records it.
+link::Ack acknowledged(AppProcess& app, record::TickRecord& commanded) {
+  link::Ack ack;
+  uint32_t acknowledgements = 0, commands = 0;
+  for (uint32_t i = 0; i < 300; ++i) {
+    const Message message = app.receive();
+    link::Log log;
+    if (message.type == link::kAck && message.take(ack)) ++acknowledgements;
+    if (message.type != link::kLog || !message.take(log) || log.record.value.input.command == 0)
+      continue;
+    commanded = log.record.value;
+    ++commands;
+  }
+  CHECK_EQ(acknowledgements, 1u);
+  CHECK_EQ(commands, 1u);
+  return ack;
+}
+
 TEST(Parameter_IsChecked_Acknowledged_AndRecordedInOneTick) {
   AppProcess app(FIRMTOUCH_TEST_ASSET);
   CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
@@ -97,21 +115,10 @@ TEST(Parameter_IsChecked_Acknowledged_AndRecordedInOneTick) {
   set.index = params::kForceLimit;
   set.value = 3.5f;
   app.send(link::kSetParam, set);
-  uint32_t acknowledged = 0, commands = 0;
-  for (uint32_t i = 0; i < 300; ++i) {
-    const Message message = app.receive();
-    link::Ack ack;
-    link::Log log;
-    if (message.type == link::kAck && message.take(ack) && ack.result == link::kAckTaken)
-      ++acknowledged;
-    if (message.type != link::kLog || !message.take(log) || log.record.value.input.command == 0)
-      continue;
-    CHECK_EQ(log.record.value.input.command, 1 + params::kForceLimit);
-    CHECK_EQ(log.record.value.input.command_value, 3.5f);
-    ++commands;
-  }
-  CHECK_EQ(acknowledged, 1u);
-  CHECK_EQ(commands, 1u);
+  record::TickRecord commanded;
+  CHECK_EQ(acknowledged(app, commanded).result, link::kAckTaken);
+  CHECK_EQ(commanded.input.command, 1 + params::kForceLimit);
+  CHECK_EQ(commanded.input.command_value, 3.5f);
 }
 
 TEST(Describe_ReturnsEveryParameterAndFault) {
@@ -148,25 +155,12 @@ TEST(ClearFaults_ReachesTheTick) {
   CHECK_EQ(app.receive().type, link::kText);  // nobody has said Hello yet
   CHECK_EQ(greet(app, link::kModeLive, asset_crc()).refused, 0u);
   app.send(link::kClearFaults, link::ClearFaults{});
-  uint32_t acknowledged = 0, commands = 0;
-  for (uint32_t i = 0; i < 300; ++i) {
-    const Message message = app.receive();
-    link::Ack ack;
-    link::Log log;
-    if (message.type == link::kAck && message.take(ack)) {
-      CHECK_EQ(ack.index, link::kAckOfClearFaults);
-      CHECK_EQ(ack.result, link::kAckTaken);
-      ++acknowledged;
-    }
-    if (message.type != link::kLog || !message.take(log) || log.record.value.input.command == 0)
-      continue;
-    CHECK_EQ(log.record.value.input.command, record::kCommandClearFaults);
-    CHECK_NE(log.record.value.output.state & record::kStateCommandTaken,
-             0u);  // its enable line is low
-    ++commands;
-  }
-  CHECK_EQ(acknowledged, 1u);
-  CHECK_EQ(commands, 1u);
+  record::TickRecord commanded;
+  const link::Ack ack = acknowledged(app, commanded);
+  CHECK_EQ(ack.index, link::kAckOfClearFaults);
+  CHECK_EQ(ack.result, link::kAckTaken);
+  CHECK_EQ(commanded.input.command, record::kCommandClearFaults);
+  CHECK_NE(commanded.output.state & record::kStateCommandTaken, 0u);  // its enable line is low
 }
 
 TEST(LockStep_WhileTheTimerRuns_IsRejected) {
