@@ -1,18 +1,15 @@
 #include "parts/work.hpp"
 
 #include "firmtouch/hal/clock.hpp"
+#include "parts/loop.hpp"
 
 namespace firmtouch::hal {
 namespace {
 
-// Two instructions a turn. Aligned: fetch effects do not depend on the rest of the image.
+// Aligned: fetch effects do not depend on the rest of the image.
 [[gnu::noinline, gnu::aligned(16)]] uint32_t ticks_of(uint32_t turns) {
   const uint32_t before = clock_work();
-#ifdef __riscv
-  asm volatile("1: addi %0, %0, -1\n bnez %0, 1b" : "+r"(turns));
-#else
-  asm volatile("1: subs %0, #1\n bne 1b" : "+r"(turns)::"cc");
-#endif
+  turn(turns);
   return clock_work() - before;
 }
 

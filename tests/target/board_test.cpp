@@ -9,7 +9,7 @@
 #include "firmtouch/hal/motors.hpp"
 #include "firmtouch/hal/parameters.hpp"
 #include "harness/test.hpp"
-#include "target/loop.hpp"
+#include "parts/loop.hpp"
 
 // The contracts of firmtouch/hal, on the board itself. The virtual clock advances by a fixed time
 // an instruction, so that counts are exact.
@@ -24,7 +24,7 @@ void count_tick() { ticks_seen = ticks_seen + 1; }
 
 [[gnu::noinline]] uint32_t instructions_of_loop(uint32_t turns) {
   const uint32_t before = hal::clock_work();
-  target::turn(turns);
+  hal::turn(turns);
   const uint64_t work = hal::clock_work() - before;
   const uint32_t per_1000 = hal::clock_work_per_1000();
   return static_cast<uint32_t>((work * 1000 + per_1000 / 2) / per_1000);

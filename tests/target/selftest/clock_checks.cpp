@@ -1,4 +1,4 @@
-#include "target/loop.hpp"
+#include "parts/loop.hpp"
 #include "target/selftest/selftest.hpp"
 
 // Two clocks check each other: microseconds and the servo's interrupt. A count of instructions
@@ -57,7 +57,7 @@ bool check_microseconds() {
 
 [[gnu::noinline]] uint32_t work_of(uint32_t turns) {
   const uint32_t before = hal::clock_work();
-  target::turn(turns);
+  hal::turn(turns);
   return hal::clock_work() - before;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <stdint.h>
 
-namespace firmtouch::target {
+namespace firmtouch::hal {
 
 /// A loop of two instructions a turn.
 inline void turn(uint32_t turns) {
@@ -12,4 +12,4 @@ inline void turn(uint32_t turns) {
 #endif
 }
 
-}  // namespace firmtouch::target
+}  // namespace firmtouch::hal
