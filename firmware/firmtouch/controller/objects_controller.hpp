@@ -20,8 +20,4 @@ class WithObjects : public EveryPart<OneScene, Device, FullMaterialMesh, Surface
 };
 using ObjectsController = WithObjects<HomedDevice, SurfacesWithObjects<FullMaterialMesh>>;
 
-/// With room for the next asset.
-using SwappingObjectsController =
-    EveryPart<TwoScenes, HomedDevice, FullMaterialMesh, SurfacesWithObjects<FullMaterialMesh>>;
-
 }  // namespace firmtouch

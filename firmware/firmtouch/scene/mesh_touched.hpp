@@ -30,9 +30,7 @@ struct MeshTouchedWith {
 };
 
 using MeshTouched = MeshTouchedWith<false, false>;
-using FieldMeshTouched = MeshTouchedWith<true, false>;
 using HulledMeshTouched = MeshTouchedWith<false, true>;
-using FullMeshTouched = MeshTouchedWith<true, true>;
 
 extern template struct MeshTouchedWith<false, false>;
 extern template struct MeshTouchedWith<true, false>;
