@@ -95,8 +95,7 @@ TEST(AssetsAreChosenByNameAndMissingOnesRefused) {
 
 TEST(OtherProbeAnswersKeepTheMotorsOff) {
   for (const uint32_t type : {mesh::kProbesSection, curve::kProbesSection}) {
-    std::vector<tools::Section> sections = part_sections();
-    for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
+    std::vector<tools::Section> sections = both_sections();
     for (tools::Section& section : sections) {
       if (section.type == type)
         section.bytes[8] = static_cast<uint8_t>(section.bytes[8] ^ 1u);  // the hash

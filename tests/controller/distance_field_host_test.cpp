@@ -12,10 +12,9 @@ using namespace controller_test;
 namespace {
 
 std::vector<tools::Section> sections_with_field() {
-  std::vector<tools::Section> sections = part_sections();
+  std::vector<tools::Section> sections = both_sections();
   for (tools::Section& section : distance_field_sections(sections))
     sections.push_back(std::move(section));
-  for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
   return sections;
 }
 

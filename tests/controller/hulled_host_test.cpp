@@ -12,9 +12,8 @@ using namespace controller_test;
 namespace {
 
 std::vector<tools::Section> hulled_sections() {
-  std::vector<tools::Section> sections = part_sections();
+  std::vector<tools::Section> sections = both_sections();
   hull_test::add_hull(sections, 600);
-  for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
   return sections;
 }
 

@@ -69,12 +69,6 @@ std::vector<tools::Section> with(tools::Section section) {
   return sections;
 }
 
-std::vector<tools::Section> whole() {
-  std::vector<tools::Section> sections = part_sections();
-  for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
-  return sections;
-}
-
 scene::ObjectLayout standing() {
   scene::ObjectLayout object{};
   std::memcpy(object.name, "one", 3);
@@ -87,8 +81,8 @@ scene::ObjectLayout standing() {
 }  // namespace
 
 TEST(FarAsset_BroughtBackByTheScene_HasEveryBitOfTheNearOne) {
-  check_same_bits<FullController>(whole());
-  check_same_bits<ToolController>(whole());
+  check_same_bits<FullController>(both_sections());
+  check_same_bits<ToolController>(both_sections());
 }
 
 TEST(FarObjects_BroughtBackByTheScene_HaveEveryBitOfTheNearOnes) {

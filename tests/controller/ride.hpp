@@ -76,6 +76,12 @@ inline std::vector<tools::Section> distance_field_sections(
   return sections;
 }
 
+inline std::vector<tools::Section> both_sections() {
+  std::vector<tools::Section> sections = part_sections();
+  for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
+  return sections;
+}
+
 inline std::vector<uint8_t> file_of(std::vector<tools::Section> sections) {
   const tools::AssetFile file = tools::write_asset(std::move(sections));
   CHECK(file.problem.empty());
@@ -83,11 +89,7 @@ inline std::vector<uint8_t> file_of(std::vector<tools::Section> sections) {
 }
 
 inline const Asset& both() {
-  static const Asset made([] {
-    std::vector<tools::Section> sections = part_sections();
-    for (tools::Section& section : path_sections()) sections.push_back(std::move(section));
-    return file_of(std::move(sections));
-  }());
+  static const Asset made(file_of(both_sections()));
   return made;
 }
 
