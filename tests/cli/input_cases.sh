@@ -227,3 +227,14 @@ ADeviceOrAPipeIsWrittenTo() {
   wait $reader
   cmp -s box.fta read.fta || fail 'other bytes'
 }
+
+AFolderAsOutputIsRefusedWithTheRemedy() {
+  box >box.obj
+  mkdir folder
+  for output in folder folder/; do
+    f bake box.obj -o $output
+    exits 3
+    says "$output: is a folder; name a file in it"
+  done
+  rmdir folder || fail 'a file is left'
+}

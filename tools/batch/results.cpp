@@ -31,7 +31,8 @@ BatchResults::BatchResults(const std::string& path, const std::string& header, B
     : path_(path), batch_(batch), shard_(shard) {
   const std::string first = "run,runs,batch," + header + "\n";
   file_.reset(std::fopen(path.c_str(), "ab"));
-  if (file_ == nullptr) throw Refused(path + ": it cannot be written");
+  if (file_ == nullptr)
+    throw Refused(path + ": it cannot be written: name a file in a folder that exists");
   if (flock(fileno(file_.get()), LOCK_EX | LOCK_NB) != 0)
     throw Refused(path + ": another batch is writing it");
   std::ostringstream had;

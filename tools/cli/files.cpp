@@ -47,6 +47,9 @@ void write_file(const std::string& path, const void* bytes, size_t count) {
     std::fwrite(bytes, 1, count, stdout);
     return;
   }
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    fail_input(path + ": is a folder; name a file in it");
   const std::string temporary = log::is_special(path) ? path : path + ".part";
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr)
@@ -57,7 +60,7 @@ void write_file(const std::string& path, const void* bytes, size_t count) {
     return;
   const std::string why = reason();
   if (temporary != path) std::remove(temporary.c_str());
-  fail_input(path + ": cannot be written: " + why);
+  fail_input(path + ": cannot be written: " + why + "; free the disk, or name a file elsewhere");
 }
 
 std::string stem_of(const std::string& path) {
