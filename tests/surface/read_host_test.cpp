@@ -211,6 +211,19 @@ TEST(CoordinatesThatRoundingMovesAreReported) {
   CHECK(read_surface_bytes("v 1e9 1e-9 0.1\n" + far("1", ".5"), "a.obj", 1).problem.empty());
 }
 
+TEST(ObjNotesWhatItPassesOverOfTheShape) {
+  const std::string faces = cube_obj();
+  CHECK(read_surface_bytes(faces + "v 0 0 0 1\nv 0 0 0 .5 .5 .5\n", "a.obj", 1).notes.empty());
+  const Imported weighted = read_surface_bytes("\nv 0 0 0 0.5\nv 0 0 0 2\n" + faces, "a.obj", 1);
+  CHECK_EQ(weighted.notes.size(), 1u);
+  CHECK(says(weighted.notes, "weights of vertices") &&
+        says(weighted.notes, ": 2, first at line 2"));
+  const Imported free =
+      read_surface_bytes("cstype bspline\nsurf 0 1 0 1 1 2 3 4\nend\n" + faces, "a.obj", 1);
+  CHECK_EQ(free.notes.size(), 1u);
+  CHECK(says(free.notes, "`surf`") && says(free.notes, ": 1, first at line 2"));
+}
+
 TEST(AFileThatCannotBeOpenedIsNamed) {
   const std::string problem = read_surface("no such folder/model.obj", 1).problem;
   CHECK(says(problem, "no such folder/model.obj: cannot be opened"));

@@ -14,8 +14,8 @@ constexpr std::string_view kPassedOver[] = {
     "vt",   "vn",         "vp",        "g",      "o",      "s",      "usemtl",   "mtllib",
     "l",    "p",          "mg",        "usemap", "maplib", "bevel",  "c_interp", "d_interp",
     "lod",  "shadow_obj", "trace_obj", "ctech",  "stech",  "cstype", "deg",      "bmat",
-    "step", "curv",       "curv2",     "surf",   "parm",   "trim",   "hole",     "scrv",
-    "sp",   "end",        "con",       "call",   "csh",    "maplib"};
+    "step", "curv2",      "parm",      "trim",   "hole",   "scrv",   "sp",       "end",
+    "con",  "call",       "csh",       "maplib"};
 
 bool is_passed_over(std::string_view word) {
   for (const std::string_view known : kPassedOver) {
@@ -24,7 +24,22 @@ bool is_passed_over(std::string_view word) {
   return false;
 }
 
-bool read_vertex(TextScan& scan, ImportSink& sink) {
+// What changes a shape and is not read, for a note.
+struct PassedOver {
+  uint64_t count = 0, first_line = 0;
+
+  void add(uint64_t line) {
+    if (count++ == 0) first_line = line;
+  }
+  void report(ImportSink& sink, const std::string& what) const {
+    if (count != 0)
+      sink.note("passed over " + what + ": " + std::to_string(count) + ", first at line " +
+                std::to_string(first_line));
+  }
+};
+
+// `weights`: w other than 1. Of a face's corner it has no meaning.
+bool read_vertex(TextScan& scan, ImportSink& sink, PassedOver& weights) {
   double xyz[3] = {};
   for (int k = 0; k < 3; ++k) {
     std::string_view word;
@@ -37,6 +52,11 @@ bool read_vertex(TextScan& scan, ImportSink& sink) {
     const char* wrong = read_number(word, xyz[k]);
     if (wrong != nullptr) sink.bad_word({scan.line()}, word, wrong);
   }
+  std::string_view fourth, colour;
+  double w = 1;
+  if (scan.next_word(fourth) && !scan.next_word(colour) && read_number(fourth, w) == nullptr &&
+      (w < 1 || w > 1))
+    weights.add(scan.line());
   return sink.add_vertex(xyz, {scan.line()});
 }
 
@@ -97,16 +117,19 @@ void read_obj(std::string_view text, ImportSink& sink) {
   TextScan scan(text);
   const std::string_view of_material = material_word(text, sink);
   std::vector<int64_t> corners;
+  PassedOver weights, free_forms;
   std::string_view word;
   while (scan.next_line()) {
     if (!scan.next_word(word)) continue;
     bool going_on = true;
     if (word == "v") {
-      going_on = read_vertex(scan, sink);
+      going_on = read_vertex(scan, sink, weights);
     } else if (word == "f" || word == "fo") {
       going_on = read_face(scan, sink, corners);
     } else if (sink.reads_materials() && word == of_material) {
       going_on = read_material(scan, word, sink);
+    } else if (word == "curv" || word == "surf") {
+      free_forms.add(scan.line());
     } else if (!is_passed_over(word)) {
       going_on = sink.defect({scan.line()}, "keyword",
                              quoted(word) +
@@ -115,6 +138,9 @@ void read_obj(std::string_view text, ImportSink& sink) {
     }
     if (!going_on) return;
   }
+  weights.report(sink, "weights of vertices, which only free-form elements have");
+  free_forms.report(sink,
+                    "free-form elements `curv` and `surf` (export them as faces to have them)");
 }
 
 }  // namespace firmtouch::tools
