@@ -1,8 +1,14 @@
 // The bar of `firmtouch bake`: even, for the times that a mesh of 300,000 triangles took.
 #include "cli/progress.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <string>
+#include <thread>
 
 #include "harness/test.hpp"
 
@@ -30,7 +36,35 @@ double unevenness(std::initializer_list<Stage> stages) {
   return worst;
 }
 
+// What standard error gets from a stage of 100 ms with a line every millisecond.
+std::string lines_in_a_file(bool is_shown) {
+  std::FILE* file = std::tmpfile();
+  if (file == nullptr) return "no file";
+  std::fflush(stderr);
+  const int terminal = dup(STDERR_FILENO);
+  dup2(fileno(file), STDERR_FILENO);
+  {
+    firmtouch::cli::Progress progress(1, is_shown, std::chrono::milliseconds(1));
+    progress.stage("reading part.obj");
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  dup2(terminal, STDERR_FILENO);
+  close(terminal);
+  std::rewind(file);
+  char text[4000];
+  const size_t count = std::fread(text, 1, sizeof text, file);
+  std::fclose(file);
+  return {text, count};
+}
+
 }  // namespace
+
+TEST(ProgressInAFile_HasLines) {
+  const std::string text = lines_in_a_file(true);
+  CHECK(text.find("s  reading part.obj\n") != text.npos);
+  CHECK_EQ(text.find_first_of("\r\033"), text.npos);
+  CHECK(lines_in_a_file(false).empty());
+}
 
 TEST(BarOfALargeMesh_MovesEvenly) {
   const double worst = unevenness({{0.3, 5.8}, {0.65, 12.6}, {0.03, 0.4}, {0.02, 0.2}});

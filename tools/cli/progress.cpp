@@ -9,8 +9,7 @@
 namespace firmtouch::cli {
 namespace {
 
-constexpr std::chrono::seconds kQuietFor(2);
-constexpr std::chrono::milliseconds kRedraw(200);
+constexpr std::chrono::milliseconds kQuietFor(2000), kRedraw(200);
 constexpr size_t kBarCells = 24;
 
 constexpr double kFirstStage_s = 4, kMaxOfStage = 0.97;
@@ -24,9 +23,13 @@ double bar_position(double done, double before_s, double share, double in_stage_
   return done + std::min(into, kMaxOfStage * share);
 }
 
-Progress::Progress(double total, bool is_shown)
-    : total_(total), begin_(std::chrono::steady_clock::now()) {
-  if (is_shown && isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { run(); });
+Progress::Progress(double total, bool is_shown, std::chrono::milliseconds line_every)
+    : total_(total),
+      on_terminal_(isatty(STDERR_FILENO) == 1),
+      first_(on_terminal_ ? kQuietFor : line_every),
+      every_(on_terminal_ ? kRedraw : line_every),
+      begin_(std::chrono::steady_clock::now()) {
+  if (is_shown) thread_ = std::thread([this] { run(); });
 }
 
 Progress::~Progress() {
@@ -36,7 +39,7 @@ Progress::~Progress() {
   }
   changed_.notify_one();
   if (thread_.joinable()) thread_.join();
-  if (drawn_) std::fputs("\r\033[K", stderr);
+  if (drawn_ && on_terminal_) std::fputs("\r\033[K", stderr);
 }
 
 double Progress::elapsed_s() const {
@@ -54,10 +57,10 @@ void Progress::stage(const std::string& what, double share) {
 
 void Progress::run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (changed_.wait_for(lock, kQuietFor, [this] { return ended_; })) return;
+  if (changed_.wait_for(lock, first_, [this] { return ended_; })) return;
   do {
     draw();
-  } while (!changed_.wait_for(lock, kRedraw, [this] { return ended_; }));
+  } while (!changed_.wait_for(lock, every_, [this] { return ended_; }));
 }
 
 void Progress::draw() {
@@ -68,7 +71,8 @@ void Progress::draw() {
     const size_t cells = static_cast<size_t>(std::min(at, 1.0) * kBarCells);
     bar = '[' + std::string(cells, '#') + std::string(kBarCells - cells, '.') + ']';
   }
-  std::fprintf(stderr, "\r\033[K%s %3.0f s  %s", bar.c_str(), now_s, what_.c_str());
+  std::fprintf(stderr, on_terminal_ ? "\r\033[K%s %3.0f s  %s" : "%s %3.0f s  %s\n", bar.c_str(),
+               now_s, what_.c_str());
   std::fflush(stderr);
   drawn_ = true;
 }

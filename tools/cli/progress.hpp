@@ -12,14 +12,15 @@ namespace firmtouch::cli {
 /// and slower; never to the end of the stage.
 double bar_position(double done, double before_s, double share, double in_stage_s);
 
-/// A progress bar on the last line of standard error, where that is a terminal and the work takes
-/// more than two seconds. A thread draws it, so that long stages show that they live; nothing else
-/// may be printed while it is there.
+/// A progress bar on the last line of standard error, from the second second on. Where that is no
+/// terminal, a line with the bar every `line_every`. A thread draws it, so that long stages show
+/// that they live; nothing else may be printed while it is there.
 class Progress {
  public:
   /// `total` of all stages' shares; 0: not known, only time and stage are shown. Nothing is shown
   /// unless `is_shown`.
-  explicit Progress(double total, bool is_shown = true);
+  explicit Progress(double total, bool is_shown = true,
+                    std::chrono::milliseconds line_every = std::chrono::seconds(10));
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -33,6 +34,8 @@ class Progress {
   void draw();
 
   const double total_;
+  const bool on_terminal_;
+  const std::chrono::milliseconds first_, every_;  // time to the first drawing, and between two
   const std::chrono::steady_clock::time_point begin_;
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -40,7 +43,7 @@ class Progress {
   std::string what_;
   bool ended_ = false;
   bool drawn_ = false;
-  std::thread thread_;  // only on a terminal
+  std::thread thread_;
 };
 
 }  // namespace firmtouch::cli
