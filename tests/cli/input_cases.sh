@@ -238,3 +238,17 @@ AFolderAsOutputIsRefusedWithTheRemedy() {
   done
   rmdir folder || fail 'a file is left'
 }
+
+APipeAsInputIsRefusedWhereItIsReadTwice() {
+  box >box.obj
+  mkfifo pipe.obj pipe.fta
+  for input in pipe.obj pipe.fta; do
+    refused $input 'is a pipe or a device, and it is read twice; copy it to a file first'
+  done
+  f mend pipe.obj -o m.obj --centre
+  exits 3
+  says 'pipe.obj: is a pipe'
+  cat box.obj >pipe.obj &
+  f mend pipe.obj -o m.obj
+  exits 0
+}

@@ -330,6 +330,7 @@ BakeRequest bake_request(const Arguments& arguments) {
   add_hull(arguments, request.options);
   add_materials(arguments, request.options);
   request.inputs = inputs_with_units(arguments.positionals(), request.options.model);
+  for (const std::string& input : request.inputs) forbid_pipe(input);
   request.device = arguments.text("--device", "");
   check_runs(request.inputs, request.options);
   check_names(request.files(), request.options);

@@ -42,6 +42,11 @@ std::string read_standard_input() {
   return {bytes.begin(), bytes.end()};
 }
 
+void forbid_pipe(const std::string& path) {
+  if (log::is_special(path))
+    fail_input(path + ": is a pipe or a device, and it is read twice; copy it to a file first");
+}
+
 void write_file(const std::string& path, const void* bytes, size_t count) {
   if (path == "-") {  // run_program() reports what cannot be written
     std::fwrite(bytes, 1, count, stdout);

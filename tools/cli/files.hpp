@@ -11,6 +11,8 @@ std::vector<uint8_t> read_file(const std::string& path);
 /// memory.
 std::vector<uint8_t> read_model(const std::string& path);
 std::string read_standard_input();
+/// Fails (bad input) where `path` is a pipe or a device: for a file that is read twice.
+void forbid_pipe(const std::string& path);
 
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
 /// command leaves no output. A device or a pipe is written to. -: to standard output.

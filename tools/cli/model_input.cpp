@@ -302,6 +302,7 @@ std::vector<std::string> inputs_with_units(const std::vector<std::string>& words
 
 void settle_size(const std::string& path, ModelOptions& options) {
   if (!(options.size_m > 0) && !options.centre) return;
+  forbid_pipe(path);
   const tools::Point moved_m = options.frame.offset_m;
   options.frame.offset_m = {};
   const Extent extent = extent_of(path, options);
