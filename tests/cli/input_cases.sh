@@ -252,3 +252,28 @@ APipeAsInputIsRefusedWhereItIsReadTwice() {
   f mend pipe.obj -o m.obj
   exits 0
 }
+
+# useless INPUT OPTION...: exit 2, each option is named, no file left
+useless() {
+  input=$1
+  shift
+  for option in "$@"; do
+    # shellcheck disable=SC2086
+    f bake "$input" -o bad.fta $option
+    exits 2
+    says "bake: ${option%% *} is of a " 'none is given: add one, or leave it out'
+    absent bad.fta
+  done
+}
+
+AnOptionThatNoInputUsesIsRefused() {
+  box >box.obj
+  printf 'x,y,z\n0,0,0\n1,0,0\n1,1,0\n' >path.csv
+  printf 'sphere 0 0 0 mm radius 5 mm\n' >tip.tool
+  useless box.obj --smooth --curve-tree --decimal-comma '--teach a'
+  useless path.csv --unsigned --mend --close-holes '--wrap 1%' --small --fast --bounded --desktop --keep-triangles \
+    '--distance-map 9' '--hull-faces 8' '--materials no.txt' '--teach a'
+  bake box.obj -o box.fta
+  useless box.fta '--unit mm' '--scale 2' '--up y' '--rotate z:90' '--size 1' --centre '--translate 1,0,0' --smooth --small
+  bake box.obj path.csv tip.tool -o all.fta --smooth --curve-tree --small --unit mm
+}

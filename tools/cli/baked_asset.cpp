@@ -14,6 +14,7 @@
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
 #include "cli/hull_arguments.hpp"
+#include "cli/input_kinds.hpp"
 #include "cli/loaded_asset.hpp"
 #include "device/device_file.hpp"
 #include "device/inertia.hpp"
@@ -25,10 +26,6 @@ namespace firmtouch::cli {
 namespace {
 
 constexpr double kUsualDeviation_m = 1e-4;
-
-bool is_run(const std::string& path) { return extension_of(path) == ".ftl"; }
-
-bool is_asset(const std::string& path) { return extension_of(path) == ".fta"; }
 
 std::string name_of(const std::string& path, const BakeOptions& options) {
   return is_run(path) ? options.teach : stem_of(path);
@@ -60,8 +57,6 @@ void check_runs(const std::vector<std::string>& inputs, const BakeOptions& optio
   if (runs > 1)
     fail_usage("bake: --teach names one guide and " + std::to_string(runs) +
                " runs are given; give one");
-  if (runs == 0 && !options.teach.empty())
-    fail_usage("bake: --teach wants a recorded run, RUN.ftl, among the inputs");
 }
 
 // An asset is named after its file's stem, so two inputs of one stem would be one asset.
@@ -94,15 +89,6 @@ BakedInput take_asset(const std::string& path) {
   taken.report = {"baked before, taken as it is: " + std::to_string(bytes_of(taken.sections)) +
                   " bytes"};
   return taken;
-}
-
-bool is_objects_file(const std::string& path) { return extension_of(path) == ".objects"; }
-
-bool is_tool_file(const std::string& path) { return extension_of(path) == ".tool"; }
-
-bool is_mesh_file(const std::string& path) {
-  return !is_curve_file(path) && !is_run(path) && !is_spline_file(path) && !is_objects_file(path) &&
-         !is_tool_file(path) && !is_asset(path);
 }
 
 // What a text file says, as one section, named after the file's stem. `read`: to the elements.
@@ -275,7 +261,6 @@ void check_materials(const BakeRequest& request) {
       fail_usage("bake: " + input +
                  " has a material for each object: leave out --materials, or bake one mesh");
   }
-  if (meshes == 0) fail_usage("bake: --materials are of a mesh: give one");
   if (meshes > 1 && !request.options.model.material_numbers.empty())
     fail_usage("bake: --material-numbers are of one mesh, and " + std::to_string(meshes) +
                " are given: bake them one by one");
@@ -327,10 +312,11 @@ std::vector<std::string> BakeRequest::files() const {
 BakeRequest bake_request(const Arguments& arguments) {
   BakeRequest request;
   request.options = bake_options(arguments);
-  add_hull(arguments, request.options);
-  add_materials(arguments, request.options);
   request.inputs = inputs_with_units(arguments.positionals(), request.options.model);
   for (const std::string& input : request.inputs) forbid_pipe(input);
+  forbid_useless_options(arguments, request.inputs);
+  add_hull(arguments, request.options);
+  add_materials(arguments, request.options);
   request.device = arguments.text("--device", "");
   check_runs(request.inputs, request.options);
   check_names(request.files(), request.options);

@@ -8,6 +8,7 @@
 
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
+#include "cli/input_kinds.hpp"
 #include "curve/read_curve_csv.hpp"
 #include "device/refused.hpp"
 #include "field/wrap.hpp"
@@ -227,13 +228,6 @@ tools::FileFrame ModelOptions::frame_for(const std::string& path) const {
   placed.unit = own->second.unit;
   placed.has_unit = true;
   return placed;
-}
-
-bool is_curve_file(const std::string& path) { return extension_of(path) == ".csv"; }
-
-bool is_spline_file(const std::string& path) {
-  const std::string extension = extension_of(path);
-  return extension == ".igs" || extension == ".iges" || extension == ".bpt";
 }
 
 std::vector<Option> with_model_options(std::vector<Option> own) {

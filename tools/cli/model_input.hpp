@@ -66,7 +66,4 @@ struct SoundSurface {
 SoundSurface sound_surface(const std::string& path, std::vector<uint8_t> bytes,
                            const ModelOptions& options);
 
-bool is_curve_file(const std::string& path);
-bool is_spline_file(const std::string& path);
-
 }  // namespace firmtouch::cli
