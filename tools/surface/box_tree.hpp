@@ -19,6 +19,8 @@ class BoxTree {
 
   /// Appends to `found` the items whose box overlaps `box` (touching counts), in a fixed order.
   void overlaps(const Box& box, std::vector<uint32_t>& found) const;
+  /// Of all items.
+  const Box& bounds() const { return nodes_[0]; }
 
  private:
   static constexpr uint32_t kLeafItems = 4;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "surface/box_tree.hpp"
 #include "surface/edges.hpp"
+#include "surface/near_faces.hpp"
 #include "surface/point.hpp"
 #include "surface/winding_number.hpp"
 
@@ -42,17 +42,14 @@ class Search {
 
   /// All pairs that cross or, where an edge meets an edge, may only touch: those are not `is_sure`.
   void find_pairs(Crossings& found, std::vector<bool>& is_sure) const {
-    std::vector<Box> boxes;
-    boxes.reserve(surface_.faces.size());
-    for (const Face& face : surface_.faces) boxes.push_back(box_of(face));
-    const BoxTree tree(std::move(boxes));
+    const NearFaces near_faces(surface_);
     std::vector<uint32_t> near;
     std::vector<std::pair<uint32_t, Pierced>> met;
     for (uint32_t f = 0; f < surface_.faces.size(); ++f) {
-      near.clear(), met.clear();
-      tree.overlaps(box_of(surface_.faces[f]), near);
+      met.clear();
+      near_faces.above(f, near);
       for (const uint32_t g : near) {
-        if (g <= f || share_an_edge(surface_.faces[f], surface_.faces[g])) continue;
+        if (share_an_edge(surface_.faces[f], surface_.faces[g])) continue;
         const Pierced how = meet(surface_.faces[f], surface_.faces[g]);
         if (how != Pierced::kNot) met.push_back({g, how});
       }
@@ -103,22 +100,12 @@ class Search {
   static constexpr double kLift =
       1e-7;  // of the shortest edge: far above rounding, far below the next sheet
 
-  Box box_of(const Face& face) const {
-    const Point a = at_[face[0]], b = at_[face[1]], c = at_[face[2]];
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
-  }
-
   double side(const Face& face, uint32_t v) const {
     return side_of_plane(at_[face[0]], at_[face[1]], at_[face[2]], at_[v]);
   }
 
-  // Of n faces about a vertex all n^2 / 2 pairs are looked at: most are decided by the first sides.
   Pierced meet(const Face& a, const Face& b) const {
     const double s[3] = {side(b, a[0]), side(b, a[1]), side(b, a[2])};
-    // At most one corner is common; the others lie on one side of b's plane.
-    const bool above = s[0] > 0 || s[1] > 0 || s[2] > 0, below = s[0] < 0 || s[1] < 0 || s[2] < 0;
-    if (above != below && is_sure(a, b, s)) return Pierced::kNot;
     const double t[3] = {side(a, b[0]), side(a, b[1]), side(a, b[2])};
     Pierced how = Pierced::kNot;
     for (uint32_t k = 0; k < 3; ++k) {
@@ -127,14 +114,6 @@ class Search {
                       pierced(b[k], b[next], a, t[k], t[next])});
     }
     return how;
-  }
-  // Whether none but a common corner may lie in the plane.
-  static bool is_sure(const Face& a, const Face& b, const double (&side)[3]) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const bool is_off = side[k] > 0 || side[k] < 0;
-      if (!is_off && a[k] != b[0] && a[k] != b[1] && a[k] != b[2]) return false;
-    }
-    return true;
   }
 
   const Surface& surface_;

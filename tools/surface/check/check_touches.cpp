@@ -5,10 +5,10 @@
 #include <set>
 #include <utility>
 
-#include "surface/box_tree.hpp"
 #include "surface/check/mending.hpp"
 #include "surface/edges.hpp"
 #include "surface/exact_side.hpp"
+#include "surface/near_faces.hpp"
 #include "surface/point.hpp"
 
 // A corner or an edge that touches the surface elsewhere, decided without rounding. A point
@@ -72,16 +72,11 @@ class Touches {
   }
 
   void find() {
-    std::vector<Box> boxes;
-    boxes.reserve(surface_.faces.size());
-    for (uint32_t f = 0; f < surface_.faces.size(); ++f) boxes.push_back(box_of(f));
-    const BoxTree tree(std::move(boxes));
+    const NearFaces near_faces(surface_);
     std::vector<uint32_t> near;
     for (uint32_t f = 0; f < surface_.faces.size(); ++f) {
-      near.clear();
-      tree.overlaps(box_of(f), near);
+      near_faces.above(f, near);
       for (const uint32_t g : near) {
-        if (g <= f || lies_on_one_side(f, g) || lies_on_one_side(g, f)) continue;
         for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g), look_at_corner(g, k, f);
         for (uint32_t k = 0; k < 3; ++k) look_at_edge(f, k, g), look_at_edge(g, k, f);
         if (has_same_places(f, g)) faces.insert(f);
@@ -104,27 +99,10 @@ class Touches {
     const Face& face = surface_.faces[f];
     return face[0] == v || face[1] == v || face[2] == v;
   }
-  Box box_of(uint32_t f) const {
-    const Point a = point(f, 0), b = point(f, 1), c = point(f, 2);
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
-  }
   Look look(uint32_t f) const {
     return Look(cross(point(f, 1) - point(f, 0), point(f, 2) - point(f, 0)));
   }
   int side(uint32_t f, Vec3 p) const { return exact_side(at(f, 0), at(f, 1), at(f, 2), p); }
-
-  // Whether face f meets the plane of g in common corners alone; nearly every neighbour does.
-  bool lies_on_one_side(uint32_t f, uint32_t g) const {
-    int first = 0;
-    for (uint32_t k = 0; k < 3; ++k) {
-      if (has(g, surface_.faces[f][k])) continue;
-      const int of_corner = side(g, at(f, k));
-      if (of_corner == 0 || of_corner == -first) return false;
-      first = of_corner;
-    }
-    return first != 0;
-  }
 
   // Where on face g the point lies, and on which of its edges; at a corner it is elsewhere.
   Where where_on(uint32_t g, Vec3 p, uint32_t& edge) const {
