@@ -228,15 +228,21 @@ ADeviceOrAPipeIsWrittenTo() {
   cmp -s box.fta read.fta || fail 'other bytes'
 }
 
-AFolderAsOutputIsRefusedWithTheRemedy() {
-  box >box.obj
+# Before any work: the model is not even read.
+AnOutputThatCannotBeIsRefusedAtOnce() {
   mkdir folder
   for output in folder folder/; do
-    f bake box.obj -o $output
+    f bake missing.obj -o $output
     exits 3
     says "$output: is a folder; name a file in it"
   done
   rmdir folder || fail 'a file is left'
+  for command in 'bake missing.obj -o none/x.fta' 'bake missing.obj -o x.fta --cpp none/x.cpp' \
+    'hull missing.obj --faces 9 -o none/x.obj' 'voxelize missing.obj -n 9 -o none/x.vti'; do
+    f $command
+    exits 3
+    says ': cannot be written: there is no folder none; make it, or name a file elsewhere'
+  done
 }
 
 APipeAsInputIsRefusedWhereItIsReadTwice() {

@@ -104,7 +104,7 @@ WhatIsNoPlanIsRefused() {
   f plan box.obj --flash 1M --ram 64K --rate 50k; exits 2; says '--rate'
   f plan box.obj --flash 1M --ram 64K --rate 0; exits 2; says '--rate 0: a number such as 1k or 4k'
   f plan box.obj --flash 1M --ram 64K --unit kg; exits 2; says 'plan: --unit kg' 'firmtouch plan --help'
-  f plan box.obj --flash 1M --ram 64K --picture none/p.svg; exits 3; says 'none/p.svg' 'name one in a folder that exists'
+  f plan box.obj --flash 1M --ram 64K --picture none/p.svg; exits 3; says 'none/p.svg' 'there is no folder none'
   f plan box.obj --flash 1M --ram 64K --core m0; exits 2; says '--core m0'
   f plan box.obj --flash 1M --ram 64K --picture box.obj; exits 2; says 'box.obj'
   f plan missing.obj --flash 1M --ram 64K --picture p.svg; exits 3; says missing.obj; absent p.svg

@@ -134,6 +134,7 @@ int run_bake(const Arguments& arguments) {
   if (output == "-" && (is_json || !source.empty()))
     fail_usage("bake: -o - takes standard output: leave out --json and --cpp, or name a file");
   if (source == output) fail_usage("bake: -o and --cpp name the same file; name two");
+  for (const std::string& file : {output, source}) check_output(file);
   const BakeRequest request = bake_request(arguments);
   for (const std::string& file : request.files()) {
     forbid_overwriting(output, file);

@@ -47,18 +47,26 @@ void forbid_pipe(const std::string& path) {
     fail_input(path + ": is a pipe or a device, and it is read twice; copy it to a file first");
 }
 
+void check_output(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    fail_input(path + ": is a folder; name a file in it");
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+    fail_input(path + ": cannot be written: there is no folder " + folder.string() +
+               "; make it, or name a file elsewhere");
+}
+
 void write_file(const std::string& path, const void* bytes, size_t count) {
   if (path == "-") {  // run_program() reports what cannot be written
     std::fwrite(bytes, 1, count, stdout);
     return;
   }
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    fail_input(path + ": is a folder; name a file in it");
+  check_output(path);
   const std::string temporary = log::is_special(path) ? path : path + ".part";
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (file == nullptr)
-    fail_input(path + ": cannot be written: " + reason() + "; name one in a folder that exists");
+    fail_input(path + ": cannot be written: " + reason() + "; name a file elsewhere");
   const bool written = std::fwrite(bytes, 1, count, file) == count;
   const bool closed = std::fclose(file) == 0;
   if (written && closed && (temporary == path || std::rename(temporary.c_str(), path.c_str()) == 0))

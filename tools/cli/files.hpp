@@ -14,6 +14,9 @@ std::string read_standard_input();
 /// Fails (bad input) where `path` is a pipe or a device: for a file that is read twice.
 void forbid_pipe(const std::string& path);
 
+/// Fails (bad input) where `path` is a folder or lies in none: before work that would be lost.
+void check_output(const std::string& path);
+
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
 /// command leaves no output. A device or a pipe is written to. -: to standard output.
 void write_file(const std::string& path, const void* bytes, size_t count);

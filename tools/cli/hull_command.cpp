@@ -159,7 +159,7 @@ int run_hull(const Arguments& arguments) {
   const std::string name = stem_of(path);
   const std::vector<uint32_t> faces = faces_of(arguments);
   const std::vector<std::string> files = files_of(arguments, faces);
-  for (const std::string& file : files) forbid_overwriting(file, path);
+  for (const std::string& file : files) check_output(file), forbid_overwriting(file, path);
   tools::HullOptions options = hull_options(arguments);
   options.target_faces = faces.back();
   const std::string strategy = arguments.choice("--strategy", "lazy", {"1", "2", "lazy"});

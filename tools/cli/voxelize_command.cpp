@@ -101,6 +101,7 @@ int run_voxelize(const Arguments& arguments) {
     fail_usage("voxelize: -o " + output + ": name it .vti or .nrrd");
   if (inputs.size() > INT16_MAX)
     fail_usage("voxelize: at most " + std::to_string(INT16_MAX) + " models at once");
+  check_output(output);
   for (const std::string& input : inputs) forbid_overwriting(output, input);
   tools::FieldOptions options;
   options.interior_only = arguments.has("--interior");
