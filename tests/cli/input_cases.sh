@@ -236,7 +236,11 @@ AnOutputThatCannotBeIsRefusedAtOnce() {
     exits 3
     says "$output: is a folder; name a file in it"
   done
-  rmdir folder || fail 'a file is left'
+  mkdir ./-
+  box >box.obj
+  f bake box.obj -o -
+  exits 0
+  rmdir folder ./- || fail 'a file is left'
   for command in 'bake missing.obj -o none/x.fta' 'bake missing.obj -o x.fta --cpp none/x.cpp' \
     'hull missing.obj --faces 9 -o none/x.obj' 'voxelize missing.obj -n 9 -o none/x.vti'; do
     f $command

@@ -48,6 +48,7 @@ void forbid_pipe(const std::string& path) {
 }
 
 void check_output(const std::string& path) {
+  if (path == "-") return;
   std::error_code error;
   if (std::filesystem::is_directory(path, error))
     fail_input(path + ": is a folder; name a file in it");

@@ -15,6 +15,7 @@ std::string read_standard_input();
 void forbid_pipe(const std::string& path);
 
 /// Fails (bad input) where `path` is a folder or lies in none: before work that would be lost.
+/// -: is standard output.
 void check_output(const std::string& path);
 
 /// Writes a file whole or not at all: to a temporary beside it, renamed at the end. A failing
