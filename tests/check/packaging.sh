@@ -84,7 +84,7 @@ pack() {
   sed -n 's/.*<file .* name="\([^"]*\)".*/\1/p' "$1" >"$folder/named"
   while IFS= read -r file; do [ -e "$made/$file" ] || complain "pdsc: there is no $file"; done <"$folder/named"
   (cd "$made" && find src -name '*.cpp') >"$folder/sources"
-  while IFS= read -r file; do grep -qxF "$file" "$folder/named" || complain "pdsc: $file is missing"; done <"$folder/sources"
+  grep -vxF -f "$folder/named" "$folder/sources" >"$folder/missing" && complain "$(sed 's/.*/pdsc: & is missing/' "$folder/missing")"
   [ "$(wc -l <"$folder/sources")" -gt 90 ] || complain 'pdsc: hardly any source'
 }
 check() {

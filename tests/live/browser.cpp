@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 // The browser reads commands from descriptor 3 and writes answers to 4, each ended by a zero.
 constexpr int kCommands = 3, kAnswers = 4;
 
-std::string quoted(const std::string& text) {
+std::string in_quotes(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
@@ -109,15 +109,16 @@ bool Browser::open(const std::string& url, int width, int height) {
   const std::string target =
       text_of(call("Target.createTarget", "{\"url\":\"about:blank\"}", 20000), "targetId");
   if (target.empty()) return false;
-  session_ = text_of(
-      call("Target.attachToTarget", "{\"targetId\":" + quoted(target) + ",\"flatten\":true}", 5000),
-      "sessionId");
+  session_ = text_of(call("Target.attachToTarget",
+                          "{\"targetId\":" + in_quotes(target) + ",\"flatten\":true}", 5000),
+                     "sessionId");
   if (session_.empty()) return false;
   call("Runtime.enable", "{}", 5000);
   call("Log.enable", "{}", 5000);
   call("Page.setDownloadBehavior", "{\"behavior\":\"deny\"}", 5000);
   resize(width, height);
-  return !text_of(call("Page.navigate", "{\"url\":" + quoted(url) + "}", 10000), "frameId").empty();
+  return !text_of(call("Page.navigate", "{\"url\":" + in_quotes(url) + "}", 10000), "frameId")
+              .empty();
 }
 
 void Browser::resize(int width, int height) {
@@ -129,11 +130,11 @@ void Browser::resize(int width, int height) {
 
 std::string Browser::evaluate(const std::string& expression) {
   const std::string wrapped = "(async () => String(await (" + expression + ")))()";
-  return text_of(
-      call("Runtime.evaluate",
-           "{\"expression\":" + quoted(wrapped) + ",\"awaitPromise\":true,\"returnByValue\":true}",
-           10000),
-      "value");
+  return text_of(call("Runtime.evaluate",
+                      "{\"expression\":" + in_quotes(wrapped) +
+                          ",\"awaitPromise\":true,\"returnByValue\":true}",
+                      10000),
+                 "value");
 }
 
 bool Browser::picture(const std::string& path) {
@@ -160,7 +161,7 @@ std::string Browser::call(const std::string& method, const std::string& paramete
                           int timeout_ms) {
   const std::string id = std::to_string(++last_id_);
   std::string message = "{\"id\":" + id + ",\"method\":\"" + method + "\",\"params\":" + parameters;
-  if (!session_.empty()) message += ",\"sessionId\":" + quoted(session_);
+  if (!session_.empty()) message += ",\"sessionId\":" + in_quotes(session_);
   message += '}';
   message += '\0';
   for (size_t at = 0; at < message.size();) {
