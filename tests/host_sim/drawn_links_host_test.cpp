@@ -99,23 +99,23 @@ TEST(DrawnLinks_OfAStoredLinkage_FollowTheTip) {
   }
 }
 
-#if __has_include(<Eigen/Dense>)
-#include <Eigen/Dense>
+#if __has_include(<Eigen/LU>)
+#include <Eigen/LU>
 
 namespace {
 
-// n / (|J| |J^-1|) of the tip's differences, from the singular values.
+// n / (|J| |J^-1|) of the tip's differences.
 double condition_of(const LinkageDevice& device, const JointMotion& at) {
   constexpr double kStep_rad = 1e-6;
-  Eigen::MatrixXd jacobian(3, device.joints.joints);
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> jacobian(3, device.joints.joints);
   for (uint32_t k = 0; k < device.joints.joints; ++k) {
     JointMotion high = at, low = at;
     high.angle_rad[k] += kStep_rad, low.angle_rad[k] -= kStep_rad;
     const Vec column = points_of(device, high).tip.at_m - points_of(device, low).tip.at_m;
     jacobian.col(k) << column.x, column.y, column.z;
   }
-  const Eigen::VectorXd s = jacobian.jacobiSvd().singularValues();
-  return static_cast<double>(s.size()) / (s.norm() * s.cwiseInverse().norm());
+  const double inverse = std::sqrt((jacobian.transpose() * jacobian).inverse().trace());
+  return static_cast<double>(jacobian.cols()) / (jacobian.norm() * inverse);
 }
 
 }  // namespace
