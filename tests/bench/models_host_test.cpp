@@ -36,6 +36,20 @@ TEST(WithoutAModelItIsTheDemoPart) {
   CHECK(models[0].view.is_signed());
 }
 
+// As `firmtouch bake` stores it; peers read the file, so models for a race count from its 0.
+TEST(AModelFarFromZeroCountsFromTheOriginOfABake) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("far.off",
+                                        "OFF\n4 4 0\n10 0 0\n10.1 0 0\n10 0.1 0\n"
+                                        "10 0 0.1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n");
+  const mesh::Head head = load_model(path).view.head();
+  CHECK_LT(std::fabs(head.low_m[0]), 1);
+  CHECK_LT(std::fabs(head.diagonal_m - std::sqrt(0.03f)), 1e-6f);
+  Options options;
+  options.models = {path};
+  CHECK_LT(std::fabs(load_models(options)[0].view.head().low_m[0] - 10), 1);
+}
+
 TEST(AnUnsignedBakeKeepsTheTreeAndDropsTheSides) {
   const Model plain = baked_again(part(), Sides::kUnsigned);
   CHECK(!plain.view.is_signed());

@@ -1,12 +1,15 @@
 #include "bench/models.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
 #include <utility>
 
+#include "bake/asset/origin.hpp"
 #include "bench/open_or_throw.hpp"
 #include "bench/points_about.hpp"
 #include "bench/problem.hpp"
@@ -21,6 +24,17 @@ namespace firmtouch::bench {
 namespace {
 
 constexpr uint64_t kPartSeed = 1;
+
+// As a bake counts its coordinates.
+tools::Point origin_of(const tools::Surface& surface) {
+  tools::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  for (const math::Vec3 vertex : surface.vertices) {
+    const tools::Point at = tools::to_point(vertex);
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+  }
+  return tools::origin_for(low, high);
+}
 
 }  // namespace
 
@@ -62,9 +76,15 @@ Model model_of(tools::Surface surface, const std::string& name, const std::strin
   return model;
 }
 
-Model load_model(const std::string& path, Sides sides) {
-  tools::Imported imported = tools::read_surface(path, 1.0);
+Model load_model(const std::string& path, Sides sides, CountedFrom counted) {
+  tools::FileFrame frame;
+  tools::Imported imported = tools::read_surface(path, frame);
   if (!imported.problem.empty()) throw Problem(imported.problem);
+  const tools::Point origin_m = origin_of(imported.surface);
+  if (counted == CountedFrom::kOrigin && tools::is_moved(origin_m)) {
+    frame.offset_m = origin_m * -1;
+    imported = tools::read_surface(path, frame);
+  }
   tools::CheckOptions checks;
   checks.allow_unsigned = sides == Sides::kUnsigned;
   const tools::CheckReport report = tools::check_and_mend(imported.surface, checks);
@@ -79,7 +99,8 @@ Model demo_part(Sides sides, uint32_t triangles) {
 
 std::vector<Model> load_models(const Options& options, Sides sides) {
   std::vector<Model> models;
-  for (const std::string& path : options.models) models.push_back(load_model(path, sides));
+  for (const std::string& path : options.models)
+    models.push_back(load_model(path, sides, CountedFrom::kFile));
   if (models.empty()) models.push_back(demo_part(sides));
   return models;
 }

@@ -47,10 +47,15 @@ struct Model {
 /// Whether a bake stores what the sign needs.
 enum class Sides { kSigned, kUnsigned };
 
+/// What coordinates count from: the origin that a bake chooses, which is not 0 for a model far from
+/// it, or that of the file, which a peer reads, too.
+enum class CountedFrom { kOrigin, kFile };
+
 /// What is named, or the demo part (seed 1) where nothing is: throws a Problem with the file, what
 /// is wrong and how to mend it.
 std::vector<Model> load_models(const Options& options, Sides sides = Sides::kSigned);
-Model load_model(const std::string& path, Sides sides = Sides::kSigned);
+Model load_model(const std::string& path, Sides sides = Sides::kSigned,
+                 CountedFrom counted = CountedFrom::kOrigin);
 Model demo_part(Sides sides = Sides::kSigned, uint32_t triangles = 20000);
 Model model_of(tools::Surface surface, const std::string& name, const std::string& path,
                Sides sides, const tools::TreeShape& shape = tools::kFastTree);

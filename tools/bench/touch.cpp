@@ -41,7 +41,10 @@ void attack(TouchSubject& subject, const Options& options, Report& report) {
              scene::kMaxQueries);
   report.bar_at_least("ticks that end at the solution", of,
                       100 * static_cast<double>(sums.optimal) / usual, "%", is_spline ? 95 : 98);
-  report.figure("of those with the hand elsewhere", of,
+  // A bench that touches nothing shows nothing.
+  report.bar_at_least("ticks with the hand elsewhere", of,
+                      100 * static_cast<double>(sums.usual - sums.free) / usual, "%", 1);
+  report.figure("of those at the solution", of,
                 100 * static_cast<double>(sums.held_optimal) /
                     static_cast<double>(std::max<uint64_t>(sums.usual - sums.free, 1)),
                 "%");
