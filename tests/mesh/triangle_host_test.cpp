@@ -111,7 +111,7 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
 
 // Also of the coarsest bound that is allowed: a mesh of no longer edge.
 TEST(NoTriangleThatIsAnUlpNearerIsLeftOut) {
-  for (const float size : {1e-9f, 1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
+  for (const float size : {1e-12f, 1e-11f, 1e-10f, 1e-9f, 1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f, 1e9f})
     for (const double height : {0.8, 1e-2, 1e-4, 1e-6, 1e-8, 0.0})
       for (const double reach : {1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3})
         for (const bool is_stored : {false, true}) {
