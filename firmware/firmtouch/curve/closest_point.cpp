@@ -54,9 +54,10 @@ struct Before {
 };
 
 // Without a safe subtree. A warm search begins at the last segment, a cold one with the first
-// sample.
-[[gnu::noinline]] Closest answer_straight(const View& curve, Vec3 p_m, query::Budget budget,
-                                          const Before& before, Hint& hint) {
+// sample. Rare, so for size.
+[[gnu::noinline, gnu::cold]] Closest answer_straight(const View& curve, Vec3 p_m,
+                                                     query::Budget budget, const Before& before,
+                                                     Hint& hint) {
   const RunBound bound(curve.head(), p_m);
   const bool compensated = bound.is_compensated(curve);
   NearestFoot nearest(curve, p_m, compensated);
@@ -72,19 +73,15 @@ struct Before {
     nearest.begin_at_first();
   }
   Traversal traversal{steps.allowed, steps.allowed - nearest.charged(), false, 0.0f};
-  if (has_begun) traversal = traverse_runs(curve, bound, steps, start, nearest);
+  if (has_begun)
+    traversal = bound.is_far ? traverse_runs(curve, bound.far, start, steps, nearest)
+                             : traverse_runs(curve, bound.near, start, steps, nearest);
   if (!traversal.complete) {
     carry_bound(hint, p_m, traversal);
     if (before.work != 0) nearest.look_compensated(before.segment);  // it was far
   }
   hint.safe_subtree = query::kNowhere;
   return finish(curve, nearest.best(), traversal, compensated, p_m, hint);
-}
-
-// A function of its own: most queries, which end at the safe subtree, do not need its frame.
-[[gnu::noinline]] Traversal search_runs(const View& curve, const NearBound& bound, Steps steps,
-                                        uint32_t run, NearestFoot& nearest) {
-  return traverse_runs(curve, bound, steps, run, nearest);
 }
 
 // From the last segment up to the last safe subtree if its bound still holds, else to the root,
@@ -109,10 +106,11 @@ bool search_near(const View& curve, Vec3 p_m, query::Budget budget, Hint& hint,
   if (ascent == Ascent::kSafeSubtree) return true;
   hint.safe_subtree = kNoNode;
   traversal.pending_m = 0.0f;
-  const RunBound bound(curve.head(), p_m);
-  if (bound.is_far) return false;
+  const Head& head = curve.head();
+  NearBound bound;
+  if (!bound.begin(head.grid_low_m, head.cell_m, p_m)) return false;
   if (ascent == Ascent::kSpent) return true;
-  traversal = search_runs(curve, bound.near, steps, run, nearest);
+  traversal = traverse_runs(curve, bound, run, steps, nearest);
   if (traversal.complete && traversal.pending_m > nearest.radius_m() && motion_m <= kBeyond_m)
     nearest.make_safe_subtree(run, motion_m, spacing_m(curve), traversal.pending_m, hint);
   return true;
@@ -137,9 +135,10 @@ Closest answer_nothing(const View& curve, Hint& hint) {
   return closest;
 }
 
-// A function of its own: a query needs the frame of one of them only.
-[[gnu::noinline]] Closest answer_anywhere(const View& curve, Vec3 p_m, query::Budget budget,
-                                          const Before& before, Hint& hint) {
+// A function of its own, for size: a query needs the frame of one of them only.
+[[gnu::noinline, gnu::cold]] Closest answer_anywhere(const View& curve, Vec3 p_m,
+                                                     query::Budget budget, const Before& before,
+                                                     Hint& hint) {
   if (!math::is_finite(p_m)) return answer_nothing(curve, hint);
   if (!is_near(p_m)) return answer_beyond(curve, p_m, hint);
   const bool is_left = before.work < budget.work;

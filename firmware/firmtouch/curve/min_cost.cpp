@@ -96,7 +96,7 @@ class LeastCost {
     const uint32_t levels = curve_.run_levels(), whole = run_segments_of(levels);
     const uint16_t* const radii = curve_.radii().data() + (run << (levels + 1));
     const uint32_t count = curve_.segment_count();
-    Cut pending[kMaxRunLevels + 2];
+    Cut pending[kMaxRunLevels + 1];
     pending[0] = {0, whole, run * whole};
     for (uint32_t left = 1; left > 0;) {
       const Cut cut = pending[--left];
@@ -117,11 +117,10 @@ class LeastCost {
         continue;
       }
       const uint32_t child = first_child(cut.part), half = cut.size / 2;
-      const bool is_second =
-          penalty_.previous_arc > curve_.arcs()[first + half < count ? first + half : count];
-      const Cut low{child, half, first}, high{child + 1, half, first + half};
-      pending[left++] = is_second ? low : high;  // the last is taken first
-      pending[left++] = is_second ? high : low;
+      const uint32_t middle = first + half < count ? first + half : count;
+      const uint32_t later = penalty_.previous_arc > curve_.arcs()[middle] ? 0 : 1;
+      pending[left++] = {child + later, half, first + later * half};
+      pending[left++] = {child + 1 - later, half, first + half - later * half};  // taken first
     }
     return true;
   }
@@ -232,7 +231,7 @@ Constraint min_cost(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty
   const uint32_t start = run_of(least.approach(from, steps.left), curve.run_levels());
   Traversal traversal{steps.allowed, 0, false, 0.0f};
   if (least.take(start, steps.left))
-    traversal = traverse_runs(curve, bound, steps, start, least);
+    traversal = traverse_runs(curve, bound, start, steps, least);
   else
     traversal.steps = steps.allowed - least.charged();
 

@@ -162,7 +162,7 @@ class RunSearch {
   const Box* boxes_;
   const Run* runs_;
   uint32_t leaves_;  // the first leaf's box
-  const Bound bound_;
+  const Bound& bound_;
   uint32_t left_, charged_ = 0;
   float reach2_m2_ = 0;
   uint32_t prune_ = 0;
@@ -179,9 +179,11 @@ class RunSearch {
 ///     bool take(uint32_t run, uint32_t& left);      false: no visit was left
 ///     uint32_t charged() const;                     units that take() took beyond visits
 ///     float others_m() const;                       certified distance to all runs so taken
+/// Out of line: most queries end at the safe subtree and do not need its frame.
 template <class Bound, class Visitor>
-static inline Traversal traverse_runs(const View& curve, const Bound& bound, Steps steps,
-                                      uint32_t start, Visitor& visitor) {
+[[gnu::noinline]] static inline Traversal traverse_runs(const View& curve, const Bound& bound,
+                                                        uint32_t start, Steps steps,
+                                                        Visitor& visitor) {
   RunSearch<Bound> search(curve, bound, steps);
   for (bool goes_on = search.begin(start, visitor.reach2_m2()); goes_on;
        goes_on = search.next(visitor.reach2_m2())) {
