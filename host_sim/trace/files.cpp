@@ -14,6 +14,16 @@ namespace {
 
 const std::string kStandardOutput = "-";
 
+// `error`: of the system.
+[[noreturn]] void fail_to_write(const std::string& path, int error) {
+  const bool is_full = error == ENOSPC || error == EDQUOT || error == EIO;
+  throw Refused(path + ": cannot be written: " + std::strerror(error) +
+                (is_full           ? "; free the disk, or name a file elsewhere"
+                 : error == EISDIR ? "; name a file in it"
+                 : error == ENOENT ? "; make its folder, or name a file elsewhere"
+                                   : "; name a file elsewhere"));
+}
+
 }  // namespace
 
 std::string read_file(const std::string& path) {
@@ -44,7 +54,7 @@ void check_writable(const std::string& path) {
     std::remove(partial.c_str());
     return;
   }
-  throw Refused(path + ": cannot be written: " + std::strerror(is_folder ? EISDIR : errno));
+  fail_to_write(path, is_folder ? EISDIR : errno);
 }
 
 void take_name(const std::string& path) {
@@ -52,13 +62,13 @@ void take_name(const std::string& path) {
   if (std::rename(partial.c_str(), path.c_str()) == 0) return;
   const int error = errno;
   remove_partial(path);
-  throw Refused(path + ": cannot be written: " + std::strerror(error));
+  fail_to_write(path, error);
 }
 
 TextStream::TextStream(const std::string& path)
     : path_(path),
       file_(path == kStandardOutput ? stdout : std::fopen(partial_of(path).c_str(), "wb")) {
-  if (file_ == nullptr) throw Refused(path + ": cannot be written: " + std::strerror(errno));
+  if (file_ == nullptr) fail_to_write(path, errno);
 }
 
 TextStream::~TextStream() {
@@ -68,8 +78,7 @@ TextStream::~TextStream() {
 }
 
 void TextStream::add(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size())
-    throw Refused(path_ + ": cannot be written: " + std::strerror(errno));
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail_to_write(path_, errno);
 }
 
 void TextStream::finish() {
@@ -78,7 +87,7 @@ void TextStream::finish() {
   if ((file == stdout ? std::fflush(file) : std::fclose(file)) != 0) {
     const int error = errno;
     if (file != stdout) remove_partial(path_);
-    throw Refused(path_ + ": cannot be written: " + std::strerror(error));
+    fail_to_write(path_, error);
   }
   if (file != stdout) take_name(path_);
 }
