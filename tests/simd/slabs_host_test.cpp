@@ -1,6 +1,8 @@
 // Four boxes at once against a segment have the bits of math::Slabs.
 #include "simd/search/slabs.hpp"
 
+#include <string.h>
+
 #include "harness/random.hpp"
 #include "harness/test.hpp"
 
@@ -50,16 +52,18 @@ TEST(FourBoxesAgainstASegment_HaveTheBitsOfEach) {
   for (uint32_t i = 0; i < 20000; ++i) {
     const Segment segment = random_segment(i);
     math::Slabs portable;
-    simd::SiblingSlabs siblings;
+    simd::FourSlabs four;
     const bool is_near = portable.begin(math::on_grid(segment.from(), segment.to(), kLow, kCell));
-    CHECK_EQ(siblings.begin(segment.from(), segment.to(), kLow, kCell), is_near);
+    CHECK_EQ(four.begin(segment.from(), segment.to(), kLow, kCell), is_near);
     CHECK_EQ(is_near, i % 11 != 0 && i % 11 != 5);
     portable.set_limit(1.0f);
     uint32_t boxes[2][8];
     uint64_t reported[2];
     for (uint32_t(&two)[8] : boxes) random_boxes(i % 4 == 0, two);
-    siblings.enter(boxes[0], boxes[1], reported[0], reported[1]);
-    CHECK_EQ(siblings.enter_two(boxes[0]), reported[0]);
+    firmtouch::mesh::Node children[2];
+    static_assert(sizeof children == sizeof boxes);
+    memcpy(children, boxes, sizeof children);
+    four.enter(simd::with_planes(children[0], children[1]), reported[0], reported[1]);
     for (uint32_t pair = 0; pair < 2; ++pair) {
       uint32_t expected[2];
       portable.enter(boxes[pair], expected);

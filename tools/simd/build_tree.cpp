@@ -80,6 +80,7 @@ struct OwnedTree::Arrays {
   std::vector<NodeBlock> blocks;
   std::vector<float> corners, shapes, prisms;
   std::vector<mesh::Vertex> directions;
+  std::vector<SegmentNode> segment_nodes;
   WideTree tree{};
 
   explicit Arrays(const mesh::View& of) : mesh(of) {
@@ -90,8 +91,9 @@ struct OwnedTree::Arrays {
     put_nodes();
     put_marked_nodes();
     put_directions();
-    tree = {nodes.data(),  block_nodes.data(), children.data(),  corners.data(),
-            shapes.data(), prisms.data(),      directions.data()};
+    put_segment_nodes();
+    tree = {nodes.data(),  block_nodes.data(), children.data(),   corners.data(),
+            shapes.data(), prisms.data(),      directions.data(), segment_nodes.data()};
   }
 
  private:
@@ -160,6 +162,20 @@ struct OwnedTree::Arrays {
     }
     children.push_back(marked(0));
     for (uint32_t node = 0; node < nodes.size(); ++node) block_nodes.push_back(marked(node));
+  }
+
+  void put_segment_nodes() {
+    for (uint32_t node = 0; node < nodes.size(); ++node) {
+      SegmentNode of = with_planes(children[2 * node], children[2 * node + 1]);
+      if (blocks[node].of.count != 0) of.block = blocks[node];
+      for (uint32_t k = 0; k < 2 && blocks[node].of.count == 0; ++k) {
+        const uint32_t child = block_nodes[node].side[k].child;
+        of.below.child[k] = child;
+        of.below.fetched[k] = is_leaf(child) ? 0 : block_node(child);
+      }
+      segment_nodes.push_back(of);
+    }
+    segment_nodes.push_back(with_planes(nodes[0], nodes[0]));
   }
 
   void put_directions() {

@@ -6,7 +6,7 @@
 
 namespace firmtouch::simd {
 
-/// A WideTree and its memory: 128 bytes a node and 232 a triangle.
+/// A WideTree and its memory: 256 bytes a node and 232 a triangle.
 class OwnedTree {
  public:
   /// Pre: the mesh is open and has at most kMaxWideTriangles triangles. Cost: O(triangles).

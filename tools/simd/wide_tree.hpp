@@ -59,6 +59,30 @@ constexpr uint32_t make_wide_leaf(uint32_t leaf, const Block& block) {
 constexpr uint32_t kBlockBit = 0x40000000u;
 constexpr uint32_t block_node(uint32_t child) { return child & ~kBlockBit; }
 
+/// A node as a segment meets it: the boxes in both children, and what is below.
+struct alignas(64) SegmentNode {
+  float planes[24];  // of each axis the low halves of the four boxes' words, then the high halves
+  union {
+    struct {
+      uint32_t child[2];    // as in WideTree::block_nodes
+      uint32_t fetched[2];  // nodes to prefetch: the children; instead of a leaf, the root
+    } below;
+    NodeBlock block;  // of a node that has one
+  };
+};
+
+/// Pre: the children of the node are `one` and `other`. Result: all but what is below.
+inline SegmentNode with_planes(const Node& one, const Node& other) {
+  SegmentNode node{};
+  for (uint32_t box = 0; box < 4; ++box)
+    for (uint32_t axis = 0; axis < 3; ++axis) {
+      const uint32_t word = (box < 2 ? one : other).side[box % 2].box[axis];
+      node.planes[8 * axis + box] = static_cast<float>(word & 0xFFFFu);
+      node.planes[8 * axis + 4 + box] = static_cast<float>(word >> 16);
+    }
+  return node;
+}
+
 struct WideTree {
   const Node* nodes;        // [node_count]: the mesh's, with leaves as above
   const Node* block_nodes;  // [node_count]: the same, with kBlockBit
@@ -76,6 +100,7 @@ struct WideTree {
   const float* prisms;
   const Vertex*
       directions;  // [7 * triangle_count]: the unit pseudonormals of a triangle's features
+  const SegmentNode* segment_nodes;  // [node_count + 1]: last, the boxes in the root, twice
 
   /// Pre: the node has a block.
   NodeBlock block(uint32_t node) const {

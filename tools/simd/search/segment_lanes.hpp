@@ -28,18 +28,15 @@ class SegmentLanes : private SegmentLine {
   Crossing crossing(Pass way, math::Vec3 p, math::Vec3 q, math::Vec3 r) const {
     Crossing reported;
     float early;
-    if (decides(way, p, q, r, reported, early) || decides_in_double(a_m_, b_m_, p, q, r, reported))
-      return reported;
-    return mesh::exact_crossing(a_m_, b_m_, p, q, r);
+    return decides(way, p, q, r, reported, early) ? reported : crossing_beyond_floats(p, q, r);
   }
 
   /// One bit a triangle.
   struct Passes {
     uint32_t misses, enters, leaves;
-    Pass of(uint32_t lane) const {
-      return ((leaves >> lane) & 1u) != 0   ? Pass::kLeaves
-             : ((enters >> lane) & 1u) != 0 ? Pass::kEnters
-                                            : Pass::kUnsure;
+    Pass of(uint32_t lane) const {  // branchless, for no predictor learns it
+      static_assert(static_cast<uint32_t>(Pass::kUnsure) == 3);
+      return static_cast<Pass>(3 - ((leaves >> lane) & 1u) - 2 * ((enters >> lane) & 1u));
     }
   };
 
@@ -57,6 +54,14 @@ class SegmentLanes : private SegmentLine {
   }
 
  private:
+  // noinline: rare, and large.
+  [[gnu::noinline]] Crossing crossing_beyond_floats(math::Vec3 p, math::Vec3 q,
+                                                    math::Vec3 r) const {
+    Crossing reported;
+    if (decides_in_double(a_m_, b_m_, p, q, r, reported)) return reported;
+    return mesh::exact_crossing(a_m_, b_m_, p, q, r);
+  }
+
   struct Sheared {
     Float8 x, y;
   };

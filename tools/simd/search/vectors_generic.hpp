@@ -1,12 +1,9 @@
 #pragma once
 // search/vectors.hpp in the compiler's own vectors of four floats: SSE, NEON, or scalar code.
 
-#include <stdint.h>
+#include "simd/search/four_floats.hpp"
 
 namespace firmtouch::simd {
-
-typedef float Float4 __attribute__((vector_size(16)));
-typedef int32_t Mask4 __attribute__((vector_size(16)));  // of a comparison: 0 or -1
 
 struct Float8 {
   Float4 low, high;
@@ -31,7 +28,7 @@ FIRMTOUCH_LANES Float8 lanes_from(const float* p) {
   __builtin_memcpy(&lanes, p, sizeof lanes);
   return lanes;
 }
-FIRMTOUCH_LANES Float8 all_of(float v) { return {Float4{v, v, v, v}, Float4{v, v, v, v}}; }
+FIRMTOUCH_LANES Float8 all_of(float v) { return {four_of(v), four_of(v)}; }
 FIRMTOUCH_LANES Mask8 all_of_bits(int32_t v) { return {Mask4{v, v, v, v}, Mask4{v, v, v, v}}; }
 FIRMTOUCH_LANES float lane_of(const Float8& v, uint32_t lane) {
   return lane < 4 ? v.low[lane] : v.high[lane - 4];
@@ -43,29 +40,19 @@ FIRMTOUCH_LANES int32_t lane_of(const Mask8& v, uint32_t lane) {
 FIRMTOUCH_LANES Mask8 less(Float8 a, Float8 b) { return {a.low < b.low, a.high < b.high}; }
 FIRMTOUCH_LANES Mask8 at_most(Float8 a, Float8 b) { return {a.low <= b.low, a.high <= b.high}; }
 FIRMTOUCH_LANES Mask8 select(Mask8 mask, Mask8 a, Mask8 b) { return (mask & a) | (~mask & b); }
-FIRMTOUCH_LANES Mask8 as_bits(Float8 v) {
-  return {reinterpret_cast<Mask4>(v.low), reinterpret_cast<Mask4>(v.high)};
-}
-FIRMTOUCH_LANES Float8 as_floats(Mask8 v) {
-  return {reinterpret_cast<Float4>(v.low), reinterpret_cast<Float4>(v.high)};
-}
+FIRMTOUCH_LANES Mask8 as_bits(Float8 v) { return {as_bits(v.low), as_bits(v.high)}; }
+FIRMTOUCH_LANES Float8 as_floats(Mask8 v) { return {as_floats(v.low), as_floats(v.high)}; }
 FIRMTOUCH_LANES Float8 select(Mask8 mask, Float8 a, Float8 b) {
   return as_floats(select(mask, as_bits(a), as_bits(b)));
 }
 FIRMTOUCH_LANES Float8 only(Mask8 mask, Float8 v) { return as_floats(as_bits(v) & mask); }
-FIRMTOUCH_LANES Float8 larger(Float8 a, Float8 b) { return select(less(b, a), a, b); }
-FIRMTOUCH_LANES Float8 smaller(Float8 a, Float8 b) { return select(less(a, b), a, b); }
-FIRMTOUCH_LANES uint32_t bits_of(Mask8 mask) {
-#if defined(__SSE2__)
-  typedef float Vector __attribute__((vector_size(16)));
-  return static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Vector>(mask.low))) |
-         static_cast<uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<Vector>(mask.high))) << 4;
-#else
-  uint32_t bits = 0;
-  for (uint32_t k = 0; k < 8; ++k) bits |= lane_of(mask, k) != 0 ? 1u << k : 0u;
-  return bits;
-#endif
+FIRMTOUCH_LANES Float8 larger(Float8 a, Float8 b) {
+  return {larger(a.low, b.low), larger(a.high, b.high)};
 }
+FIRMTOUCH_LANES Float8 smaller(Float8 a, Float8 b) {
+  return {smaller(a.low, b.low), smaller(a.high, b.high)};
+}
+FIRMTOUCH_LANES uint32_t bits_of(Mask8 mask) { return bits_of(mask.low) | bits_of(mask.high) << 4; }
 
 constexpr float kMaxMinimum = 0x1.fffffep127f;
 FIRMTOUCH_LANES uint32_t minimum_lane(Float8 v, uint32_t of, float& minimum) {
