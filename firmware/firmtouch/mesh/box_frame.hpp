@@ -26,9 +26,13 @@ inline math::Vec3 along(const BoxFrame& frame, math::Vec3 v) {
   return {dot(axis_of(frame, 0), v), dot(axis_of(frame, 1), v), dot(axis_of(frame, 2), v)};
 }
 
-/// `p_m` in the frame. Called, so that meshes without a frame do not pay for its registers.
-[[gnu::noinline, gnu::cold]] inline math::Vec3 turned(const BoxFrame& frame, math::Vec3 p_m) {
+/// `p_m` in the frame.
+inline math::Vec3 in_frame(const BoxFrame& frame, math::Vec3 p_m) {
   return along(frame, p_m - math::Vec3{frame.centre_m[0], frame.centre_m[1], frame.centre_m[2]});
+}
+/// The same, called, so that meshes without a frame do not pay for its registers.
+[[gnu::noinline, gnu::cold]] inline math::Vec3 turned(const BoxFrame& frame, math::Vec3 p_m) {
+  return in_frame(frame, p_m);
 }
 
 /// `p_m` where the grid of the mesh has it.

@@ -41,9 +41,14 @@ struct BoxSegment {
 
   BoxSegment(const View& mesh, math::Vec3 a, math::Vec3 b)
       : a_m(in_box_frame(mesh, a)), b_m(in_box_frame(mesh, b)) {
-    if (mesh.box_frame() == nullptr) return;
+    if (mesh.box_frame() != nullptr) widen(mesh.head());
+  }
+  /// Not turned yet.
+  BoxSegment(math::Vec3 a, math::Vec3 b) : a_m(a), b_m(b) {}
+  /// Of turned ends.
+  void widen(const Head& head) {
     const auto sum = [](math::Vec3 v) { return absolute(v.x) + absolute(v.y) + absolute(v.z); };
-    slack_cells += (sum(a_m) + sum(b_m)) * (0x1p-21f / mesh.head().cell_m);
+    slack_cells += (sum(a_m) + sum(b_m)) * (0x1p-21f / head.cell_m);
   }
 };
 
