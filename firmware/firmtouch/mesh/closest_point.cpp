@@ -25,6 +25,9 @@ struct ScalarFinder {
   [[gnu::always_inline]] inline Vec3 direction(const Best& best) const {
     return feature_direction(mesh, best.triangle, best.feature);
   }
+  [[gnu::always_inline]] static inline Vec3 in_box_frame(const View& mesh, const Vec3& p_m) {
+    return mesh::in_box_frame(mesh, p_m);
+  }
   static int sign(float height_m, float doubt_m) {
     if (height_m > doubt_m) return 1;
     return height_m < -doubt_m ? -1 : 0;

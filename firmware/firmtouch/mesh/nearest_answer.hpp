@@ -2,9 +2,10 @@
 // From a search for the nearest triangle to an answer with its certificate. The scalar search and
 // the wide one of tools/simd share it. For the library's own translation units.
 //
-// A Finder has three functions: find<kCompensated>(bound, search) searches and returns whether no
+// A Finder has four functions: find<kCompensated>(bound, search) searches and returns whether no
 // nearer triangle can be left, direction(best) returns the pseudonormal of the best feature,
-// sign(height_m, doubt_m) returns the sign of a height, 0 in doubt.
+// in_box_frame(mesh, p_m) is that of mesh/box_frame.hpp, sign(height_m, doubt_m) returns the sign
+// of a height, 0 in doubt.
 
 #include <float.h>
 
@@ -359,7 +360,7 @@ template <class Finder>
 [[gnu::always_inline]] inline Closest closest_by(const View& mesh, const Finder& finder, Vec3 p_m,
                                                  query::Budget budget, Hint& hint) {
   NearBound near_bound;
-  if (near_bound.begin(mesh.head(), in_box_frame(mesh, p_m)))
+  if (near_bound.begin(mesh.head(), finder.in_box_frame(mesh, p_m)))
     return answer(mesh, finder, near_bound, p_m, budget, hint);
   return answer_far(mesh, finder, p_m, budget, hint);
 }

@@ -42,6 +42,10 @@ struct WideFinder {
         tree.directions[size_t{kFeatures} * best.triangle + static_cast<uint32_t>(best.feature)];
     return {v.x_m, v.y_m, v.z_m};
   }
+  // Inlined: a point that a call returns waits for the stores of its floats.
+  [[gnu::always_inline]] static inline Vec3 in_box_frame(const View& mesh, const Vec3& p_m) {
+    return mesh.box_frame() == nullptr ? p_m : mesh::in_frame(*mesh.box_frame(), p_m);
+  }
   // Branchless: no predictor learns when a path passes through the surface.
   static int sign(float height_m, float doubt_m) {
     return static_cast<int>(height_m > doubt_m) - static_cast<int>(height_m < -doubt_m);
