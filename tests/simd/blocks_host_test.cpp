@@ -105,6 +105,22 @@ struct Compared {
   uint32_t differ = 0, improved = 0, wrongly_clear = 0, clear = 0;
 };
 
+// Whether a triangle that is taken at once is what measuring all of the leaf takes, without a
+// rival.
+bool begins_without_rivals(const simd::BlockTriangles& triangles, const Leaf& leaf, uint32_t last,
+                           float slack_m2) {
+  mesh::Rivals rivals{};
+  rivals.clear();
+  rivals.slack_m2 = 0.01f;
+  const auto limit2 = [&rivals](float distance2_m2) { return rivals.limit2_m2(distance2_m2); };
+  mesh::Best best, of_all;
+  if (!simd::begin_at(triangles, leaf.p_m, 5, last & 0xFFFFu, slack_m2, limit2, best).is_taken)
+    return true;
+  simd::take_rivals(simd::feet_on(triangles, leaf.p_m), simd::CornerArrays(triangles),
+                    triangles.lanes(), triangles.first, 5, of_all, rivals);
+  return same(best, of_all) && rivals.count == 0;
+}
+
 void compare_leaves(uint32_t turn, Compared& compared) {
   const Leaf leaf = flattened(turn);
   const float slack_m2 = mesh::Nearer::slack_m2(longest_edge_m(leaf));
@@ -129,13 +145,20 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   const uint32_t lasts[] = {scalar.triangle, first, next_random()};
   for (const uint32_t last : lasts) {
     mesh::Best best;
-    const uint32_t clear =
-        simd::measure_last_leaf(triangles, leaf.p_m, 5, last & 0xFFFFu, slack_m2, best);
+    const auto same_distance2 = [](float distance2_m2) { return distance2_m2; };
+    const simd::Begun begun =
+        simd::begin_at(triangles, leaf.p_m, 5, last & 0xFFFFu, slack_m2, same_distance2, best);
+    if (!begun.is_taken)
+      simd::take_nearest(simd::feet_on(triangles, leaf.p_m), triangles.lanes(), first, 5, FLT_MAX,
+                         best);
     compared.differ += same(best, scalar) ? 0u : 1u;
-    if (clear == firmtouch::query::kNowhere) continue;
+    compared.differ += begins_without_rivals(triangles, leaf, last, slack_m2) ? 0u : 1u;
+    if (begun.clear == firmtouch::query::kNowhere) continue;
     ++compared.clear;
     compared.wrongly_clear +=
-        clear != block.first || has_nearer_outside(leaf, child, block, best.distance2_m2) ? 1u : 0u;
+        begun.clear != block.first || has_nearer_outside(leaf, child, block, best.distance2_m2)
+            ? 1u
+            : 0u;
   }
 }
 

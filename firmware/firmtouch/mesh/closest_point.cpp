@@ -7,6 +7,7 @@ namespace firmtouch::mesh {
 namespace {
 
 struct ScalarFinder {
+  static constexpr bool kIsForSpeed = false;
   const View& mesh;
 
   template <bool kCompensated, class Bound>

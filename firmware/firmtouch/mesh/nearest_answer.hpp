@@ -5,7 +5,7 @@
 // A Finder has four functions: find<kCompensated>(bound, search) searches and returns whether no
 // nearer triangle can be left, direction(best) returns the pseudonormal of the best feature,
 // in_box_frame(mesh, p_m) is that of mesh/box_frame.hpp, sign(height_m, doubt_m) returns the sign
-// of a height, 0 in doubt.
+// of a height, 0 in doubt. kIsForSpeed: what few queries of a scan need is not made for size.
 
 #include <float.h>
 
@@ -196,13 +196,26 @@ template <class Finder, class Bound>
 // Where float32 does not promise `within_m`. By value: a reference would keep `found` of every
 // query in memory.
 template <class Finder, class Bound>
-[[gnu::noinline, gnu::cold]] Found refined(const View& mesh, Finder finder, const Bound& bound,
-                                           uint32_t budget, float threshold_m, float within_m,
-                                           float loss_m, Search& search, Found found) {
+[[gnu::noinline]] Found refined_fast(const View& mesh, Finder finder, const Bound& bound,
+                                     uint32_t budget, float threshold_m, float within_m,
+                                     float loss_m, Search& search, Found found) {
   if (!is_decided(threshold_m, loss_m, found) && !measure_again(mesh, within_m, search, found))
     search_again(mesh, finder, bound, budget, search, found);
   return found;
 }
+// The same for size, as GCC makes a cold function.
+template <class Finder, class Bound>
+[[gnu::noinline, gnu::cold]] Found refined_small(const View& mesh, Finder finder,
+                                                 const Bound& bound, uint32_t budget,
+                                                 float threshold_m, float within_m, float loss_m,
+                                                 Search& search, Found found) {
+  if (!is_decided(threshold_m, loss_m, found) && !measure_again(mesh, within_m, search, found))
+    search_again(mesh, finder, bound, budget, search, found);
+  return found;
+}
+template <class Finder, class Bound>
+constexpr auto* refined =
+    Finder::kIsForSpeed ? refined_fast<Finder, Bound> : refined_small<Finder, Bound>;
 
 // The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change
 // it.
@@ -275,8 +288,8 @@ template <class Finder, class Bound>
   bool exact = false;
   if (is_near) {
     if (!Bound::kCompensated && !(2.0f * loss_m <= promise_m))
-      found = refined(mesh, finder, bound, parts_of(budget.work), budget.threshold_m, promise_m,
-                      loss_m, search, found);
+      found = refined<Finder, Bound>(mesh, finder, bound, parts_of(budget.work), budget.threshold_m,
+                                     promise_m, loss_m, search, found);
     exact = found.complete;
   }
 

@@ -19,6 +19,7 @@ namespace firmtouch::simd {
 namespace {
 
 struct WideFinder {
+  static constexpr bool kIsForSpeed = true;
   const View& mesh;
   const WideTree& tree;
   uint32_t triangle_low;  // mesh::Hint::triangle_low

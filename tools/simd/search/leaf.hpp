@@ -109,35 +109,39 @@ struct ShapeInLane {
   return take_nearest(feet_on(leaf, p_m), leaf.lanes(), leaf.first, slot, min2_m2, best);
 }
 
-/// The same with no bound yet, faster if the nearest is the triangle whose low 16 bits are `last`.
-/// Any value of `last` gives the same best.
-/// Result: the first triangle of the leaf's block if no other leaf of the block has a nearer one,
-///         else kNowhere.
-[[gnu::always_inline]] static inline uint32_t measure_last_leaf(const BlockTriangles& leaf,
-                                                                math::Vec3 p_m, uint32_t slot,
-                                                                uint32_t last, float slack_m2,
-                                                                Best& best) {
-  uint32_t clear = query::kNowhere;
+/// Of a search that begins with a leaf.
+struct Begun {
+  bool is_taken;   // else the leaf is still to be measured
+  uint32_t clear;  // first triangle of the leaf's block, if no other leaf of it has one of
+                   // interest, else kNowhere
+};
+
+/// Takes the triangle whose low 16 bits are `last` as the nearest of a leaf, with no bound yet, if
+/// the leaf has it and prisms exclude all others there. `limit2_of`: beyond which squared distance
+/// a triangle is of no interest, if the nearest is so far away.
+template <class Limit>
+[[gnu::always_inline]] static inline Begun begin_at(const BlockTriangles& leaf, math::Vec3 p_m,
+                                                    uint32_t slot, uint32_t last, float slack_m2,
+                                                    const Limit& limit2_of, Best& best) {
+  Begun begun{false, query::kNowhere};
   const uint32_t lane = (last - leaf.first) & 0xFFFFu;
-  if (lane < leaf.count) {
-    mesh::Foot foot;
-    mesh::find_foot(p_m, ShapeInLane(ShapeArrays(leaf), CornerArrays(leaf), lane),
-                    mesh::Everything{}, foot);
-    const BlockTriangles block(leaf.tree, leaf.of);
-    const uint32_t nearer = may_be_nearer(block, p_m, prism_limit2(foot.distance2_m2, slack_m2));
-    const uint32_t first = leaf.first - block.first, own = leaf.lanes() << first;
-    if ((nearer & ~own) == 0) clear = block.first;
-    if ((nearer & own & ~(1u << (first + lane))) == 0 && foot.distance2_m2 < FLT_MAX) {
-      best.distance2_m2 = foot.distance2_m2;
-      best.offset_m = foot.offset_m;
-      best.triangle = leaf.first + lane;
-      best.slot = slot;
-      best.feature = foot.feature;
-      return clear;
-    }
-  }
-  take_nearest(feet_on(leaf, p_m), leaf.lanes(), leaf.first, slot, FLT_MAX, best);
-  return clear;
+  if (lane >= leaf.count) return begun;
+  mesh::Foot foot;
+  mesh::find_foot(p_m, ShapeInLane(ShapeArrays(leaf), CornerArrays(leaf), lane), mesh::Everything{},
+                  foot);
+  const BlockTriangles block(leaf.tree, leaf.of);
+  const uint32_t nearer =
+      may_be_nearer(block, p_m, prism_limit2(limit2_of(foot.distance2_m2), slack_m2));
+  const uint32_t first = leaf.first - block.first, own = leaf.lanes() << first;
+  if ((nearer & ~own) == 0) begun.clear = block.first;
+  if ((nearer & own & ~(1u << (first + lane))) != 0 || !(foot.distance2_m2 < FLT_MAX)) return begun;
+  begun.is_taken = true;
+  best.distance2_m2 = foot.distance2_m2;
+  best.offset_m = foot.offset_m;
+  best.triangle = leaf.first + lane;
+  best.slot = slot;
+  best.feature = foot.feature;
+  return begun;
 }
 
 /// mesh::measure_rivals() of the lanes `of`, one leaf. Lane 0 is triangle `first`.

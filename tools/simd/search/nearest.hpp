@@ -231,13 +231,17 @@ template <bool kRivals>
   const Vec3 p_m{search.p_m.x, search.p_m.y, search.p_m.z};
   const float slack_m2 = search.slack_m2;
   Best& best = search.best;
-  uint32_t clear = query::kNowhere;
   const BlockTriangles last(tree, sides[search.start].child);
-  if constexpr (kRivals) {
-    search.begin_rivals(mesh);
-    take_leaf_rivals(last, p_m, search.start, search);
-  } else {
-    clear = measure_last_leaf(last, p_m, search.start, triangle_low, slack_m2, best);
+  if constexpr (kRivals) search.begin_rivals(mesh);
+  const auto limit2_of = [&](float distance2_m2) {
+    return kRivals ? search.rivals.limit2_m2(distance2_m2) : distance2_m2;
+  };
+  const Begun begun = begin_at(last, p_m, search.start, triangle_low, slack_m2, limit2_of, best);
+  if (!begun.is_taken) {
+    if constexpr (kRivals)
+      take_leaf_rivals(last, p_m, search.start, search);
+    else
+      take_nearest(feet_on(last, p_m), last.lanes(), last.first, search.start, FLT_MAX, best);
   }
   uint32_t prune = prune_key(bound, search), left = UINT32_MAX - 1, slot;
   float limit2_m2 = prism_limit2(limit_of<kRivals>(search), slack_m2);
@@ -262,12 +266,13 @@ template <bool kRivals>
       left -= measure_block<kRivals>(tree, node, bound_at, prune, search);
     } else if constexpr (kRivals) {
       const BlockTriangles leaf(tree, child);
-      if (may_be_nearer(leaf, p_m, limit2_m2) == 0 || !take_leaf_rivals(leaf, p_m, slot, search))
+      if (leaf.of.first == begun.clear || may_be_nearer(leaf, p_m, limit2_m2) == 0 ||
+          !take_leaf_rivals(leaf, p_m, slot, search))
         continue;
       prune = prune_key(bound, search);
     } else {
       const float before2_m2 = best.distance2_m2;
-      if (wide_leaf_block(child).first == clear ||
+      if (wide_leaf_block(child).first == begun.clear ||
           !(measure_near_leaf(BlockTriangles(tree, child), p_m, slot, before2_m2, limit2_m2, best) <
             before2_m2))
         continue;
