@@ -34,6 +34,29 @@ TEST(SmallTool_OnAFace_IsAboveTheHandAtAnySpeed) {
     }
 }
 
+// A part of 5 cm lies 6 of its sizes from the middle of a device.
+TEST(SmallTool_SomeSizesFromTheOrigin_FollowsTheHand) {
+  for (const float radius_m : {0.0f, 0.00002f, 0.0001f})
+    for (const float sizes : {1.0f, 3.0f, 6.0f, 10.0f}) {
+      const Vec3 shift_m = Vec3{0.55f, -0.62f, 0.56f} * (0.145f * sizes);
+      tools::Surface surface = hilly(50, flat);
+      for (Vec3& vertex : surface.vertices) vertex = vertex + shift_m;
+      ProxyRig rig(surface);
+      rig.settings.radius_m = radius_m;
+      Broken broken;
+      double lag_m = 0;
+      for (uint32_t tick = 0; tick < 1000; ++tick) {
+        const Vec3 hand_m = round_hand(tick, 0.0005, 0) + shift_m;
+        rig.tick(hand_m, broken);
+        const Vec3 off_m = rig.proxy.position_m - hand_m;
+        lag_m = std::fmax(lag_m, std::hypot(wide(off_m.x), wide(off_m.y)));
+      }
+      firmtouch::test::note("sizes", static_cast<uint32_t>(sizes));
+      CHECK_LE(lag_m, 0.001);  // two ticks
+      CHECK_EQ(broken.crossings, 0u);
+    }
+}
+
 TEST(SmallTool_OverHills_FollowsTheHand) {
   for (const float radius_m : {0.0f, 0.0001f})
     for (const double step_m : {1e-4, 5e-4}) {
