@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "cli/files.hpp"
 #include "host_sim/commands/commands.hpp"
 #include "host_sim/trace/log.hpp"
 
@@ -35,8 +36,11 @@ void check_outputs(const NamedFiles& inputs, const NamedFiles& outputs) {
     for (size_t k = 0; k < outputs.size(); ++k)
       if (k != i) check_differ(outputs[i], outputs[k]);
   }
-  for (const auto& output : outputs)
-    if (!output.second.empty()) check_writable(output.second);
+  for (const auto& output : outputs) {
+    if (output.second.empty()) continue;
+    cli::check_output(output.second);
+    check_writable(output.second);
+  }
 }
 
 }  // namespace firmtouch::host_sim

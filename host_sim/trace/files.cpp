@@ -16,12 +16,10 @@ const std::string kStandardOutput = "-";
 
 // `error`: of the system.
 [[noreturn]] void fail_to_write(const std::string& path, int error) {
-  const bool is_full = error == ENOSPC || error == EDQUOT || error == EIO;
-  throw Refused(path + ": cannot be written: " + std::strerror(error) +
-                (is_full           ? "; free the disk, or name a file elsewhere"
-                 : error == EISDIR ? "; name a file in it"
-                 : error == ENOENT ? "; make its folder, or name a file elsewhere"
-                                   : "; name a file elsewhere"));
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  throw Refused(
+      path + ": cannot be written: " + std::strerror(error) +
+      (is_full ? "; free the disk, or name a file elsewhere" : "; name a file elsewhere"));
 }
 
 }  // namespace
@@ -46,15 +44,10 @@ void remove_partial(const std::string& path) {
 void check_writable(const std::string& path) {
   if (path == kStandardOutput || log::is_special(path)) return;
   const std::string partial = partial_of(path);
-  const bool is_folder = std::filesystem::is_directory(path);
-  std::ofstream out;
-  if (!is_folder) out.open(partial, std::ios::binary);
-  if (!is_folder && out) {
-    out.close();
-    std::remove(partial.c_str());
-    return;
-  }
-  fail_to_write(path, is_folder ? EISDIR : errno);
+  std::ofstream out(partial, std::ios::binary);
+  if (!out) fail_to_write(path, errno);
+  out.close();
+  std::remove(partial.c_str());
 }
 
 void take_name(const std::string& path) {

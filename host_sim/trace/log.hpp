@@ -52,6 +52,7 @@ Log read_log(const std::string& path);
 std::string read_file(const std::string& path);
 void write_file(const std::string& path, const std::string& bytes);
 /// Throws Refused if write_file() would fail for a reason that is visible now. Changes nothing.
+/// Pre: cli::check_output() takes it.
 void check_writable(const std::string& path);
 /// Path that is written to before the file gets its name; that of a device or a pipe is its own.
 std::string partial_of(const std::string& path);

@@ -1,8 +1,6 @@
 #include "bench/models.hpp"
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include "bench/problem.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
 #include "surface/check/check.hpp"
+#include "surface/extent.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/make/make_walk.hpp"
 #include "surface/read/read_surface.hpp"
@@ -24,17 +23,6 @@ namespace firmtouch::bench {
 namespace {
 
 constexpr uint64_t kPartSeed = 1;
-
-// As a bake counts its coordinates.
-tools::Point origin_of(const tools::Surface& surface) {
-  tools::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  for (const math::Vec3 vertex : surface.vertices) {
-    const tools::Point at = tools::to_point(vertex);
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
-  }
-  return tools::origin_for(low, high);
-}
 
 }  // namespace
 
@@ -80,7 +68,8 @@ Model load_model(const std::string& path, Sides sides, CountedFrom counted) {
   tools::FileFrame frame;
   tools::Imported imported = tools::read_surface(path, frame);
   if (!imported.problem.empty()) throw Problem(imported.problem);
-  const tools::Point origin_m = origin_of(imported.surface);
+  const tools::Extent extent = tools::extent_of(imported.surface);
+  const tools::Point origin_m = tools::origin_for(extent.low, extent.high);
   if (counted == CountedFrom::kOrigin && tools::is_moved(origin_m)) {
     frame.offset_m = origin_m * -1;
     imported = tools::read_surface(path, frame);

@@ -87,13 +87,6 @@ void turn_by(const Arguments& arguments, tools::FileFrame& frame) {
   tools::turn_about(frame, static_cast<int>(axis), degrees);
 }
 
-Extent extent_of(const tools::Surface& surface) {
-  Extent extent;
-  for (const tools::Face& face : surface.faces)
-    for (const uint32_t v : face) extent.add(tools::to_point(surface.vertices[v]));
-  return extent;
-}
-
 [[noreturn]] void fail_with(const std::string& path, const std::vector<std::string>& refused) {
   std::string all;
   for (const std::string& line : refused)
@@ -150,7 +143,7 @@ Wrapping joined_points(const std::string& path, const tools::Surface& points, do
 
 SoundSurface wrapped_surface(const std::string& path, const tools::Surface& soup,
                              const Length& wrap) {
-  const Extent extent = extent_of(soup);
+  const Extent extent = tools::extent_of(soup);
   const double diagonal_m = tools::length(extent.high - extent.low);
   const bool is_points = soup.faces[0][0] == soup.faces[0][1];
   const double distance_m = wrap.is_share ? wrap.value * diagonal_m : wrap.value;
@@ -193,11 +186,6 @@ void add_materials(const std::string& path, const ModelOptions& options,
 
 }  // namespace
 
-void Extent::add(tools::Point p) {
-  low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-  high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-}
-
 Extent extent_of(const std::string& path, const ModelOptions& options) {
   const tools::FileFrame frame = options.frame_for(path);
   Extent extent;
@@ -214,7 +202,7 @@ Extent extent_of(const std::string& path, const ModelOptions& options) {
     for (const tools::SplineCurve& curve : model.curves) add(curve.points);
     for (const tools::SplineSurface& surface : model.surfaces) add(surface.points);
   } else {
-    extent = extent_of(tools::read_surface(path, frame, tools::PointsAre::kTaken).surface);
+    extent = tools::extent_of(tools::read_surface(path, frame, tools::PointsAre::kTaken).surface);
   }
   return extent;
 }

@@ -1,11 +1,11 @@
 #pragma once
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bake/materials/materials_file.hpp"
 #include "cli/arguments.hpp"
+#include "surface/extent.hpp"
 #include "surface/surface.hpp"
 
 namespace firmtouch::cli {
@@ -46,11 +46,7 @@ std::vector<std::string> inputs_with_units(const std::vector<std::string>& words
 /// Settles --size and --centre by the box of `path`, which is read for that.
 void settle_size(const std::string& path, ModelOptions& options);
 
-/// Bounding box.
-struct Extent {
-  tools::Point low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void add(tools::Point p);
-};
+using tools::Extent;
 
 /// Of a model as its file's reader gives it; what is wrong with it is said when it is read again.
 Extent extent_of(const std::string& path, const ModelOptions& options);

@@ -5,7 +5,8 @@
 // A Finder has four functions: find<kCompensated>(bound, search) searches and returns whether no
 // nearer triangle can be left, direction(best) returns the pseudonormal of the best feature,
 // in_box_frame(mesh, p_m) is that of mesh/box_frame.hpp, sign(height_m, doubt_m) returns the sign
-// of a height, 0 in doubt. kIsForSpeed: what few queries of a scan need is not made for size.
+// of a height, 0 in doubt. Its kIsForSpeed: whether refined answers, which scans rarely need, are
+// compiled for speed instead of size.
 
 #include <float.h>
 
