@@ -148,6 +148,26 @@ TEST(LeastCost_OfAHandThatIsLedAlong_IsThatOfAllSegments) {
   }
 }
 
+// A sample is then as near as the foot, to the last bit, but not where the foot is.
+TEST(LeastCost_OfAFootNextToASample_IsThatOfAllSegments) {
+  const Baked baked({{0.1f, 0.2f, 0.3f}, {-0.4f, 0.35f, 0.7f}});
+  const math::Vec3 end_m = baked.samples[1], along_m = end_m - baked.samples[0];
+  const float size_m = baked.view.head().diagonal_m;
+  std::mt19937 random(7);
+  const auto any = [&] { return static_cast<float>(curve_test::uniform(random)); };
+  for (uint32_t i = 0; i < 4000; ++i) {
+    const math::Vec3 aside = math::cross(along_m, math::Vec3{any(), any(), any()});
+    const float aside_m = 0.1f * any() * size_m, before_m = 3e-4f * any() * aside_m;
+    const math::Vec3 p_m = end_m + aside * (aside_m / math::length(aside)) -
+                           along_m * (before_m / math::length(along_m));
+    curve::Hint hint;
+    (void)curve::closest_point(baked.view, p_m, query::kUnlimited, hint);
+    const curve::ArcPenalty penalty{static_cast<float>(kWeights[i % 4]) * size_m,
+                                    i % 3 == 0 ? 1.0f : 0.99f, true};
+    check(baked, p_m, penalty, guided_point(baked.view, p_m, penalty, query::kUnlimited, hint));
+  }
+}
+
 TEST(EveryBudgetBracketsTheCost) {
   for (const curve_test::NamedCurve& named : curve_test::hard_curves()) {
     const Baked baked(named.points);

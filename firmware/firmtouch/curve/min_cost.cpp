@@ -34,15 +34,27 @@ class LeastCost {
 
   uint32_t best_at() const { return best_at_; }
 
-  /// Begins with the nearest point, and looks at the segments from there to `end_arc`.
-  /// Result: false if they are too many.
-  bool take_beside(const Closest& nearest, float end_arc) {
+  /// Begins with the nearest point, or with the foot on its segment if it is a sample: a foot next
+  /// to one may be as near, to the last bit, at another arc position.
+  /// Result: the arc position.
+  float begin_at(const Closest& nearest) {
     work_.left = UINT32_MAX;
+    const float* const arcs = curve_.arcs().data() + nearest.segment;
+    if (!(nearest.arc > arcs[0] && nearest.arc < arcs[1])) {
+      Foot foot;
+      (void)look_at(nearest.segment, foot);
+      return arc_of(curve_, foot);
+    }
     best_at_ = nearest.segment;
     cost_m_ = nearest.distance_m + penalty_at_m(penalty_, nearest.arc, curve_.is_closed());
     beyond2_m2_ = reach2_m2();
-    const uint32_t ahead = end_arc > nearest.arc ? 1 : 0;
-    uint32_t segment = nearest.segment;
+    return nearest.arc;
+  }
+
+  /// The segments from there to `end_arc`. Result: false if they are too many.
+  bool take_beside(float from_arc, float end_arc) {
+    const uint32_t ahead = end_arc > from_arc ? 1 : 0;
+    uint32_t segment = best_at_;
     Foot foot;
     for (uint32_t i = 0; i < kMaxBeside; ++i) {
       const uint32_t joint = segment + ahead;
@@ -200,16 +212,18 @@ float rounded_down(const Head& head, const Constraint& found, float weight_m, fl
 bool min_cost_beside(const View& curve, math::Vec3 p_m, const ArcPenalty& penalty,
                      Constraint& found) {
   Closest& closest = found.closest;
-  const float end_arc = penalty.previous_arc + (penalty.previous_arc - closest.arc);
-  if (curve.is_closed() && !(end_arc >= 0.0f && end_arc <= 1.0f)) return false;
   if (!closest.certificate.exact || closest.distance_m > curve.head().diagonal_m * 0.25f)
     return false;
   LeastCost least(curve, p_m, penalty, false);
-  const bool is_done = least.take_beside(closest, end_arc);
+  const float from_arc = least.begin_at(closest);
+  const float end_arc = penalty.previous_arc + (penalty.previous_arc - from_arc);
+  const bool is_done = (!curve.is_closed() || (end_arc >= 0.0f && end_arc <= 1.0f)) &&
+                       least.take_beside(from_arc, end_arc);
   closest.certificate.work += least.charged();
   if (!is_done) return false;
   const query::Certificate certificate = closest.certificate;
-  if (least.best_at() != closest.segment) closest = any_answer(curve, least.best());
+  if (least.best_at() != closest.segment || least.best().t > 0.0f)
+    closest = any_answer(curve, least.best());
   found.cost_m = least.cost_m();
   closest.certificate = certificate;
   const Head& head = curve.head();
