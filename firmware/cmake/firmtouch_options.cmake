@@ -4,12 +4,16 @@
 set(FIRMTOUCH_WARNING_FLAGS
     -Wall -Wextra -Wconversion -Wsign-conversion -Wdouble-promotion -Wfloat-equal -Wshadow
     # Of -fno-rounding-math below, which is the default there.
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-unsupported-floating-point-opt>)
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-unsupported-floating-point-opt>)
 # Firmware and hal also: clean of these. Not -Wuseless-cast: a cast to uint32_t is of use where that is no unsigned long.
 set(FIRMTOUCH_STRICT_FLAGS -Wold-style-cast -Wundef -Wswitch-enum $<$<CXX_COMPILER_ID:GNU>:-Wcast-align=strict>)
 if(FIRMTOUCH_WERROR)
   list(APPEND FIRMTOUCH_WARNING_FLAGS -Werror)
 endif()
+
+# Tools, host_sim and host tests: clang warns of every double made of a float, and of what a test takes in but does not call.
+set(FIRMTOUCH_HOSTED_FLAGS
+    $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-double-promotion;-Wno-unneeded-internal-declaration>)
 
 # The same bits everywhere: no contraction to fused multiply-add, no fast-math nor any part of it. A target's options
 # follow CMAKE_CXX_FLAGS and add_compile_options, so these win over what the project around Firmtouch sets. What comes later
@@ -60,7 +64,7 @@ set(FIRMTOUCH_FREESTANDING_FLAGS
     -fno-asynchronous-unwind-tables -ffunction-sections -fdata-sections)
 
 # Seen from everywhere: the functions below may be called by the project that takes Firmtouch in.
-foreach(flags WARNING STRICT ARITHMETIC ROUNDING NATIVE FREESTANDING)
+foreach(flags WARNING STRICT HOSTED ARITHMETIC ROUNDING NATIVE FREESTANDING)
   set(FIRMTOUCH_${flags}_FLAGS "${FIRMTOUCH_${flags}_FLAGS}" CACHE INTERNAL "")
 endforeach()
 
@@ -141,7 +145,7 @@ function(firmtouch_hosted target)
   endif()
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:${level}> ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_ROUNDING_FLAGS}
-                                           ${FIRMTOUCH_NATIVE_FLAGS} ${FIRMTOUCH_WARNING_FLAGS})
+                                           ${FIRMTOUCH_NATIVE_FLAGS} ${FIRMTOUCH_WARNING_FLAGS} ${FIRMTOUCH_HOSTED_FLAGS})
   target_compile_definitions(${target} PRIVATE ${FIRMTOUCH_ARCH_DEFINITION})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()

@@ -98,8 +98,8 @@ void add_axes(TextLines& out, const Box& box, double diagonal) {
   const Vec half = {std::max(0.5, (box.high.x - box.low.x) + diagonal),
                     std::max(0.5, (box.high.y - box.low.y) + diagonal),
                     std::max(0.5, (box.high.z - box.low.z) + diagonal)};
-  out.add("mass 0.075 kg\nviscous_friction 0.5 N*s/m\ncoulomb_friction 0.02 N");
-  out.add("encoder_quantum 10 um\nmotor_limit 12 N");
+  out.line("mass 0.075 kg\nviscous_friction 0.5 N*s/m\ncoulomb_friction 0.02 N");
+  out.line("encoder_quantum 10 um\nmotor_limit 12 N");
   out.add("origin_x %.5g m\norigin_y %.5g m\norigin_z %.5g m", middle.x, middle.y, middle.z);
   out.add("workspace_half_x %.4g m\nworkspace_half_y %.4g m\nworkspace_half_z %.4g m", half.x,
           half.y, half.z);
@@ -107,7 +107,7 @@ void add_axes(TextLines& out, const Box& box, double diagonal) {
 
 void add_setting(TextLines& out, const Environment& environment, const Box& box, double diagonal,
                  double tool_m, const PlannedDevice& device) {
-  out.add("rate 1000 Hz\n\n# the device");
+  out.line("rate 1000 Hz\n\n# the device");
   if (device.linkage == nullptr) {
     add_axes(out, box, diagonal);
   } else {  // the start is at the middle of its joints' ranges
@@ -116,12 +116,12 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
     out.add("scene_x %.6g m\nscene_y %.6g m\nscene_z %.6g m", origin.x, origin.y, origin.z);
   }
   out.add("\n# the surface and the guide\ntool_radius %.4g mm", tool_m * 1e3);
-  out.add("contact_stiffness 1200 N/m\nguide_stiffness 400 N/m");
+  out.line("contact_stiffness 1200 N/m\nguide_stiffness 400 N/m");
   if (environment.has_surface() && !environment.has_mesh()) {
     const Orientation orientation = orientation_of(environment.tessellation());
     out.add("surface_closed %d\nsurface_turned %d", orientation.is_closed ? 1 : 0,
             orientation.normals_inward ? 1 : 0);
-    out.add("mesh_work 5120\ntick_work 5600");  // a patch needs more work than a triangle
+    out.line("mesh_work 5120\ntick_work 5600");  // a patch needs more work than a triangle
   }
   out.add("guide_snap %.4g mm\nguide_release %.4g mm", kSnap * diagonal * 1e3,
           kRelease * diagonal * 1e3);
@@ -171,7 +171,7 @@ std::string plan_scenario(const Environment& environment, const std::string& ass
       "# A hand touches the asset. Written by `firmtouch-sim scenario` from the bounding box.");
   out.line("asset " + tools::path_word(asset));
   add_setting(out, environment, box, diagonal, tool, device);
-  out.add("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
+  out.line("\n# the hand\nhand_stiffness 400 N/m\nhand_damping 4 N*s/m");
   out.add("start %.6g %.6g %.6g m\nhold for %.4g s", start.x, start.y, start.z, kHold_s);
   if (environment.has_surface())
     add_press(out, environment, start, tool, 1.3 * deep, kFirstPress_s);

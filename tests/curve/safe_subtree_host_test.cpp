@@ -102,7 +102,7 @@ TEST(WarmQuery_FindsTheNearestPoint_AfterAnyCertificate) {
       CHECK(baked.report.problem.empty());
       test::note(named.name.c_str(), levels);
       Walker walker{std::mt19937(levels), baked.samples[0]};
-      curve::Hint hint, rested;
+      curve::Hint hint;
       for (uint32_t i = 0; i < kSteps; ++i) {
         walker.step(baked);
         const math::Vec3 p = walker.at_m;

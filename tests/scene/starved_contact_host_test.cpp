@@ -83,7 +83,7 @@ TEST(ShortBudgetInside_RendersAllTheDepthThatIsCertified) {
       const double size_N = length(rig.force_N(p_m, budget));
       const query::Certificate& certificate = rig.touch.closest.certificate;
       const double lower_m = static_cast<double>(certificate.lower_m);
-      firmtouch::test::note("tick", static_cast<uint64_t>(tick));
+      firmtouch::test::note("tick", tick);
       if (certificate.sign == 0) CHECK_EQ(size_N, 0.0);
       if (budget.work == kDefault.work && height_m < 0.0498) CHECK_EQ(certificate.sign, -1);
       if (certificate.sign >= 0) continue;

@@ -268,12 +268,13 @@ std::string with_colours(std::string svg) {
 std::string html_of(const std::string& text) {
   std::string html;
   for (const char c : text)
-    html += c == '&'                                        ? "&amp;"
-            : c == '<'                                      ? "&lt;"
-            : c == '>'                                      ? "&gt;"
-            : c == '"'                                      ? "&quot;"
-            : (c >= 0 && c < ' ' && c != '\n') || c == 0x7F ? "?"  // no page may hold them
-                                                            : std::string(1, c);
+    html += c == '&'   ? "&amp;"
+            : c == '<' ? "&lt;"
+            : c == '>' ? "&gt;"
+            : c == '"' ? "&quot;"
+            : (static_cast<unsigned char>(c) < ' ' && c != '\n') || c == 0x7F
+                ? "?"  // no page may hold them
+                : std::string(1, c);
   return html;
 }
 

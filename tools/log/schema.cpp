@@ -126,7 +126,7 @@ std::vector<Column> Header::columns() const {
 
 std::string printable(std::string text) {
   for (char& c : text)
-    if ((c >= 0 && c < ' ') || c == 0x7F) c = '?';
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';
   return text;
 }
 
