@@ -152,16 +152,17 @@ Points points_of(const LinkageDevice& device, const JointMotion& start, uint32_t
   return to;
 }
 
-// A quarter of a second of both, with --long a second; the largest distance of the tips over how
+// A quarter of a second of both, with --long `long_s`; the largest distance of the tips over how
 // far the tip moved.
-double difference(const LinkageDevice& device, const JointMotion& start, Points points) {
+double difference(const LinkageDevice& device, const JointMotion& start, Points points,
+                  double long_s = 1) {
   points.prepare();
   LinkageBody body(device, start);
   const Vector3d from = points.at_m.segment<3>(3 * points.tip);
   double worst_m = 0, moved_m = 0;
   const double still[3] = {};
-  const uint32_t steps = test::is_long() ? 50000 : 12500;
-  for (uint32_t step = 0; step < steps; ++step) {
+  const double end_s = test::is_long() ? long_s : 0.25;
+  for (uint32_t step = 0; step * 2e-5 < end_s; ++step) {
     const double t = step * 2e-5;
     const host_sim::Vec hand_N{0.02 * std::sin(11 * t), 0.02 * std::cos(13 * t),
                                0.02 * std::sin(7 * t)};
@@ -222,7 +223,8 @@ TEST(Motion_Delta_IsThatOfConstrainedPoints) {
     if (k == 0) points.springs.push_back({rod, .02, -1, flat, {0, 0, 1}});
     if (k == 2) points.springs.push_back({rod, .04, .5, flat, {0, 0, 1}});
   }
-  CHECK_LE(difference(device, start, points), 1e-5);
+  // Then it falls through a place where its loops do not close, and the body stands.
+  CHECK_LE(difference(device, start, points, 0.35), 1e-5);
 }
 
 // The shoulder is on the axis here, so that two rods in an upright plane are the whole arm.
