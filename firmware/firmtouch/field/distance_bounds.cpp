@@ -58,7 +58,8 @@ Bounds distance_bounds(const View& distance_field, Vec3 p_m) {
   }
   if (box_m > 0.0f) {
     if (distance_field.is_signed()) bounds.sign = 1;
-    if (box_m > bounds.lower_m) bounds.lower_m = box_m <= FLT_MAX ? box_m : FLT_MAX;
+    // Squares overflow beyond 2^64 m: then no bound.
+    if (box_m > bounds.lower_m && box_m <= FLT_MAX) bounds.lower_m = box_m;
   }
   return math::is_finite(p_m) ? bounds : Bounds{0, FLT_MAX, 0, query::kNowhere};
 }
