@@ -17,7 +17,7 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   energy.available_J = available_J;
   energy.position_m = position_m;
   energy.stretch_m = stretch_m;
-  energy.payable_m = stretch_m > 0.0f || given_J <= available_J ? stretch_m : entered_m;
+  energy.payable_m = given_J <= available_J ? stretch_m : stretch_m + entered_m;
   energy.overdrawn_ticks = available_J < -kOverdraft_J ? energy.overdrawn_ticks + 1 : 0;
 
   // What a tool that leaves faster and faster, or is about to turn, takes by the next tick. Within
@@ -38,8 +38,9 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   } else if (payable_m < grown_m) {
     payable_m = grown_m;
   }
-  if (payable_m < stretch_m) energy.payable_m = payable_m;
-  return energy.payable_m;
+  if (!(payable_m < stretch_m)) return stretch_m;
+  energy.payable_m = payable_m;
+  return payable_m;
 }
 
 }  // namespace firmtouch::servo

@@ -26,7 +26,7 @@ struct Energy {
   float available_J = FLT_MAX;   // limited to a full reservoir in the first tick
   float stretch_m = 0;           // hand to proxy in the last tick
   float entered_m = 0;           // growth of the stretch in the last tick
-  float payable_m = 0;           // result of the last tick; below 0: left, unpaid
+  float payable_m = 0;           // result of the last tick; less than stretch_m: unpaid
   math::Vec3 position_m;         // of the last tick
   math::Vec3 contact_N;          // applied since then; the caller sets it
   uint32_t overdrawn_ticks = 0;  // without a break, by more than kOverdraft_J

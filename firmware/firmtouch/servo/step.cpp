@@ -131,7 +131,7 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   Vec3 force_N =
       shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
   // A force that is not paid for must not last: it falls faster than its slew limit. So does that
-  // of a contact which the tool left, if another such tick is not paid for.
+  // of a tool that leaves, if another such tick is not paid for.
   if (state.energy.payable_m < state.energy.stretch_m)
     force_N = shorten(force_N, math::length(wanted_N));
   if (model.spring.is_used) {
