@@ -94,6 +94,21 @@ TEST(Objects_EmptySetUnderLoadAndAnyRadius_LeavesTheToolAtTheHand) {
   }
 }
 
+// Below the other object is what the proxy's coordinates in the removed one's frame are in the
+// device frame.
+TEST(Objects_HolderThatIsRemoved_LeavesTheToolOnItsSide) {
+  Boxes boxes;
+  boxes.add(at({0, 0, 0.03f}));
+  boxes.add(at({0, 0, 0.05f}));
+  for (float z_m = 0.07f; z_m > 0.055f; z_m -= 0.001f) boxes.tick({0, 0, z_m});
+  CHECK(is_near(boxes.output.proxy_m.z, 0.063f, 1e-5f));
+  --boxes.count;
+  for (uint32_t tick = 0; tick < 3; ++tick) {
+    boxes.tick({0, 0, 0.055f});
+    CHECK(is_near(boxes.output.proxy_m.z, 0.055f, 0));
+  }
+}
+
 // A wall that rises by far more than a small tool's size in a tick.
 TEST(Objects_WallThatRisesThroughAHeldTool_PushesItInEachTick) {
   const float radii_m[] = {kRadius_m, 0.00002f}, speeds_mps[] = {0.05f, 0.5f, 5.0f};
