@@ -41,16 +41,6 @@ bool is_same(const Feature& a, const Feature& b, float within_m) {
 
 }  // namespace
 
-Bounds bounds_of(const Proxy& proxy, Vec3 hand_m) {
-  float free_m = proxy.near.lower_m;
-  if (proxy.phase == Proxy::Phase::kFree)
-    free_m = proxy.free_m;
-  else if (proxy.searched_free_m > 0.0f)  // while the side is looked for the hand goes on
-    free_m = math::larger(free_m - math::length(hand_m - proxy.searched_m) * kUp, 0.0f);
-  // Since the last query it has moved by what the free radius has lost.
-  return {free_m, proxy.near.distance_m + (proxy.near.lower_m - free_m)};
-}
-
 ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, Proxy& proxy)
     : settings_(settings),
       proxy_(proxy),
@@ -172,23 +162,32 @@ void ProxyMove::take_all() {
 }
 
 // Where the proxy comes to rest for the planes of the working set, from where it is. Only planes
-// that hold it are taken anew, at most once each.
+// that hold it are taken anew, at most once each. A triangle's own plane may leave more of the way
+// than the one across the line to it, but two may meet far from both triangles: where the proxy is
+// held they are taken for a way of 0.
 math::Slide ProxyMove::rest() {
   const Vec3 way_m = goal_m_ - proxy_.position_m;
   if (math::length(way_m) * kUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
   if (proxy_.is_loaded) friction_.slid_m = math::length(proxy_.position_m - begin_m_);
   begin_planes();
   take_active();  // most often the same hold it again: then it is solved once
+  bool is_near = false;
   for (;;) {
     if (again_left_ == 0) take_all();
     const math::NearestInPlanes nearest =
         math::nearest_in_planes(proxy_.plane, proxy_.feature_count, way_m, proxy_.active);
     proxy_.active = nearest.active;
-    if (take_active()) {
-      --again_left_;
-      continue;
+    if (!take_active()) {
+      const bool is_held = nearest.active.count > 1 && !is_near && again_left_ > 0;
+      if (!is_held || !(math::length(nearest.point_m) <= kTolerance * size_m_))
+        return math::slide_with_friction(proxy_.plane, proxy_.feature_count, way_m, nearest,
+                                         friction_);
+      is_near = true;
+      outlook_.way_m = {};
+      taken_ = 0;
+      take_active();
     }
-    return math::slide_with_friction(proxy_.plane, proxy_.feature_count, way_m, nearest, friction_);
+    --again_left_;
   }
 }
 
@@ -222,8 +221,7 @@ bool ProxyMove::aim() {
   const math::Slide slide = rest();
   const float size_m = lag_m_ = math::length(slide.point_m);
   const float way_m = math::length(goal_m_ - proxy_.position_m);
-  const float tolerance_m =
-      way_m * 3e-6f > kTolerance * size_m_ ? way_m * 3e-6f : kTolerance * size_m_;
+  const float tolerance_m = math::larger(way_m * 3e-6f, kTolerance * size_m_);
   const float limit_m = cap_ * proxy_.free_m;
   // Bitwise at the hand, if nothing holds it back.
   const Vec3 missing_m = slide.point_m - (goal_m_ - proxy_.position_m);
@@ -315,7 +313,7 @@ void ProxyMove::begin_contact(const Near& near) {
   moved_.is_starved = true;
   proxy_.phase = Proxy::Phase::kUnknown;
   const Tangent tangent = tangent_at(near.feature, trial_m_, {});
-  const Vec3 step = tangent.normal * kTowards + kAside;
+  const Vec3 step = tangent.normal * __builtin_copysignf(kTowards, tangent.distance_m) + kAside;
   proxy_.position_m = trial_m_ = trial_m_ - step * near.lower_m;
   is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
   is_over_ = !is_searching_;
