@@ -98,6 +98,31 @@ TEST(SmallTool_OnAnObjectThatMoves_FollowsTheHand) {
   }
 }
 
+// What is known of the drum where the hand comes from does not reach as far as it goes.
+TEST(SmallTool_ThatLeavesAnotherObjectBehind_FollowsTheHand) {
+  for (const float radius_m : {0.0f, 0.00002f}) {
+    ObjectsRig rig;
+    rig.add_shape(hilly(50, flat));
+    rig.add_shape(drum(0.003f, 0.003f, 8));
+    rig.contact.settings.radius_m = radius_m;
+    rig.contact.settings.budget.work = 640;
+    rig.add(0, {});
+    scene::Object small;
+    small.pose.translation_m = {0, -0.08f, 0.01f};
+    rig.add(1, small);
+    BrokenAmongObjects broken;
+    double lag_m = 0;
+    for (uint32_t tick = 0; tick < 280; ++tick) {
+      const float y_m = tick < 100 ? -0.045f : -0.045f + 0.0005f * static_cast<float>(tick - 100);
+      const float z_m = tick < 100 ? 0.008f - 0.0001f * static_cast<float>(tick) : -0.002f;
+      rig.tick({0, y_m, z_m}, broken);
+      lag_m = std::fmax(lag_m, std::fabs(wide(rig.proxy_m().y) - wide(y_m)));
+    }
+    CHECK_LE(lag_m, 1e-6);
+    CHECK_EQ(broken.crossings + broken.unclear + broken.longer + broken.over_budget, 0u);
+  }
+}
+
 TEST(SmallTool_OnAnObjectBesideAThinWall_CrossesNeither) {
   uint32_t free = 0;
   for (const float radius_m : {0.0f, 0.00002f, 0.0001f})

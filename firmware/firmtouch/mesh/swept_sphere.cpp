@@ -53,6 +53,15 @@ struct Passing {
   }
 };
 
+// From beyond the grid, an eighth of the extent and more, which covers all rounding: whether the
+// ball of two reaches about the begin is clear of that about the mesh's box. NaN, infinite: no.
+[[gnu::noinline]] bool is_beyond(const Head& head, const Vec3& from_m, float reach_m) {
+  const Vec3 low_m{head.low_m[0], head.low_m[1], head.low_m[2]},
+      high_m{head.high_m[0], head.high_m[1], head.high_m[2]};
+  const float away_m = math::length((from_m - low_m) + (from_m - high_m)) * (1.0f - 0x1p-18f);
+  return math::is_finite(away_m * reach_m) && away_m > 4.0f * reach_m + head.diagonal_m;
+}
+
 }  // namespace
 
 // With u = 2^-24, a product of an axis with a difference of points is off by at most 4.1 u of the
@@ -69,7 +78,7 @@ Sweep sweep(const View& mesh, const SweptSphere& sphere, query::Budget budget) {
   uint32_t pending[kMaxDepth + 2];
   if (bound.begin(mesh.head(), in_box_frame(mesh, sphere.from_m + sphere.along_m * 0.5f)))
     pending[count++] = 0;
-  else
+  else if (!is_beyond(mesh.head(), sphere.from_m, reach_m))
     passing.free_part = 0.0f;
   const uint32_t prune = bound.prune_key(reach_m * reach_m);
   while (count != 0 && passing.free_part > 0.0f) {
