@@ -1,6 +1,7 @@
 #include <thread>
 
 #include "controller/ride.hpp"
+#include "scene/proxy_rig.hpp"
 
 // Geometry and servo at two rates: the model is made beside the ticks, and which one a tick uses is
 // an input of it.
@@ -119,6 +120,29 @@ TEST(StaleModel_RaisesAFault_ForceEnds) {
   CHECK_EQ(ride.output.faults, servo::kFaultStaleModel);
   CHECK(latched <= static_cast<uint32_t>(params::kTable[params::kModelAge].initial) + 1);
   CHECK_EQ(size_of(ride.output.force_N), 0.0);
+}
+
+// A small tool that slides at 0.5 m/s, 3 mm deep: by more than its free ball a model.
+TEST(TwoRates_SmallToolThatSlides_StaysInContact) {
+  static const Asset asset(file_of(mesh_sections(scene_test::plate(0.01f), "plate")));
+  Ride ride(asset);
+  for (uint32_t tick = 0; tick < 240; ++tick) {
+    const double x_m = tick < 120 ? -0.03 : -0.03 + 0.0005 * (tick - 120);
+    const double z_m = tick < 120 ? std::max(0.005 - 0.0001 * tick, -0.003) : -0.003;
+    ride.fill(tick);
+    ride.input.encoder_counts[0] = static_cast<int32_t>(std::lround(x_m * 100000));
+    ride.input.encoder_counts[1] = 0;
+    ride.input.encoder_counts[2] = static_cast<int32_t>(std::lround(z_m * 100000));
+    if (tick == 0) ride.input.command = params::kToolRadius + 1;
+    ride.input.command_value = 0.0002f;
+    ride.input.flags |= ride.controller.model_flags();
+    ride.step();
+    if (tick % 2 == 1) ride.controller.make_model();
+    if (tick < 120) continue;
+    CHECK((ride.output.state & record::kStateContact) != 0);
+    CHECK_GE(ride.output.force_N[2], 1.0f);
+  }
+  CHECK_EQ(ride.output.faults, 0u);
 }
 
 }  // namespace

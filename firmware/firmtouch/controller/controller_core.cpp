@@ -3,6 +3,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/compose.hpp"
 #include "firmtouch/servo/fault.hpp"
+#include "firmtouch/servo/proxy_spring.hpp"
 
 namespace firmtouch {
 namespace {
@@ -152,10 +153,16 @@ void ControllerCore::begin_model(const ModelRequest& request, const Values& v,
   live_.model_sequence = result.model.sequence;
 }
 
-ModelResult* ControllerCore::result_of_tick(const Tick& tick, uint32_t flags) {
+ModelResult* ControllerCore::result_of_tick(Tick& tick, uint32_t flags) {
   if ((flags & record::kFlagModelApart) == 0) return &models_.result();
   if ((flags & record::kFlagModelTaken) != 0) models_.take();
-  if ((flags & record::kFlagModelWanted) != 0) models_.request({tick.request, values_});
+  if ((flags & record::kFlagModelWanted) != 0) {
+    // Where this tick's model will have it: the last tick's proxy is of another ball.
+    const servo::ProxySpring& spring = models_.result().model.spring;
+    tick.request.has_proxy = spring.is_used;
+    tick.request.proxy_m = servo::proxy_at(spring, tick.request.position_m);
+    models_.request({tick.request, values_});
+  }
   return nullptr;
 }
 

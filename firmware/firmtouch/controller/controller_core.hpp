@@ -63,7 +63,7 @@ class ControllerCore {
   /// Corrects the energy that the observer is about to count.
   void count_rendered(const Rendered& last);
   /// Result: the result to make of tick.request now; null at two rates.
-  ModelResult* result_of_tick(const Tick& tick, uint32_t flags);
+  ModelResult* result_of_tick(Tick& tick, uint32_t flags);
   /// The servo: what the motors shall do.
   Push step(const Tick& tick, uint32_t flags, record::TickOutput& output);
   /// The last part: record output. `passed`: what the guard decided on the motors.
