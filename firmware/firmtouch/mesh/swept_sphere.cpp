@@ -53,13 +53,14 @@ struct Passing {
   }
 };
 
-// From beyond the grid, an eighth of the extent and more, which covers all rounding: whether the
-// ball of two reaches about the begin is clear of that about the mesh's box. NaN, infinite: no.
+// From beyond the grid, 0.57 diagonals and more from its centre: whether the ball of two reaches
+// about the begin is clear of that about the mesh's box. A tenth of a reach, or where that is less
+// the grid's own distance, covers all rounding. NaN, infinite: no.
 [[gnu::noinline]] bool is_beyond(const Head& head, const Vec3& from_m, float reach_m) {
   const Vec3 low_m{head.low_m[0], head.low_m[1], head.low_m[2]},
       high_m{head.high_m[0], head.high_m[1], head.high_m[2]};
-  const float away_m = math::length((from_m - low_m) + (from_m - high_m)) * (1.0f - 0x1p-18f);
-  return math::is_finite(away_m * reach_m) && away_m > 4.0f * reach_m + head.diagonal_m;
+  const float away_m = math::length((from_m - low_m) + (from_m - high_m));
+  return math::is_finite(away_m * reach_m) && away_m > 4.1f * reach_m + head.diagonal_m;
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
       contact_(contact),
       size_m_(size_m),
       hand_m_(contact.position_m) {
-  if (!(touch_.carrier < set_.count)) enter(place_in(kNoObject, touch_.anchor_m));
   for (uint32_t i = 0; i < set_.count; ++i)
     if (!is_same(set_.object[i].pose, set_.pair[i].pose)) moved_ |= 1u << i;
+  if (!(touch_.carrier < set_.count)) enter(place_in(kNoObject, touch_.anchor_m));
   const uint8_t frame = touch_.carrier;
   const math::RigidTransform& pose = frame == kNoObject ? kUnmoved : set_.pair[frame].pose;
   contact_.proxy_m = is_same(contact.proxy_m, touch_.anchor_m)
