@@ -15,7 +15,8 @@ struct BaseHullDistance {
   BaseHullSide side = BaseHullSide::kUnknown;
   // Outside: certified, no point of the mesh is nearer. Else 0.
   float lower_m = 0;
-  // Inside: certified, a point inside the mesh too is no deeper than this. Else FLT_MAX.
+  // Inside: upper bound of the distance to the base hull. A point inside the mesh too is no deeper,
+  // unless the base hull crosses itself. Else FLT_MAX.
   float deepest_m = FLT_MAX;
   math::Vec3 point_m{};  // of the base hull, the nearest found
   math::Vec3 normal{};   // unit, outward, of a face at point_m; 0 if none was found
