@@ -86,6 +86,15 @@ TEST(Energy_ToolThatAllButLeft_IsPushedByItsSpringAlone) {
   CHECK_LE(tool.at(-0.00001f).force_N.z, kStiffness_N_per_m * 0.0000101f);
 }
 
+TEST(Energy_ToolThatTurnsAfterAnUnpaidTick_IsResistedByItsWholeStep) {
+  Tool tool(0.0129f);  // what it gives in the tick before it turns, and 0.18 mJ
+  tool.limits.slew_limit_N_per_s = 5000;
+  tool.at(0.0001f);
+  for (int tick = 0; tick < 4; ++tick) tool.at(-0.0016f);
+  tool.at(-0.00001f);
+  CHECK_GE(tool.at(-0.0003f).force_N.z, kStiffness_N_per_m * 0.0002999f);
+}
+
 TEST(Energy_AnySine_GivesNoMoreThanTheReservoir) {
   const float periods[] = {10.0f, 12.7f, 20.0f, 60.0f};
   for (const float period : periods) {

@@ -177,7 +177,7 @@ void ControllerCore::count_rendered(const Rendered& last) {
   servo::Energy& energy = live_.servo.energy;
   energy.contact_N = energy.contact_N * last.share;
   float available_J = energy.available_J - math::dot(energy.contact_N, last.off_m);
-  if (energy.stretch_m > 0.0f || energy.payable_m < 0.0f)  // in contact, or left unpaid
+  if (energy.stretch_m > 0.0f || energy.is_unpaid)  // in contact, or left unpaid
     available_J -= servo::kHiddenWork_per_J * last.hidden_J2;
   energy.available_J = available_J;
 }

@@ -17,8 +17,12 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   energy.available_J = available_J;
   energy.position_m = position_m;
   energy.stretch_m = stretch_m;
-  energy.payable_m = given_J <= available_J ? stretch_m : stretch_m + entered_m;
-  energy.overdrawn_ticks = available_J < -kOverdraft_J ? energy.overdrawn_ticks + 1 : 0;
+  energy.payable_m = stretch_m;
+  energy.is_unpaid = entered_m < 0.0f && given_J > available_J;
+  if (!(available_J < -kOverdraft_J))
+    energy.overdrawn_ticks = 0;
+  else if (energy.overdrawn_ticks < UINT16_MAX)
+    ++energy.overdrawn_ticks;
 
   // What a tool that leaves faster and faster, or is about to turn, takes by the next tick. Within
   // an encoder's step nothing is predicted.
@@ -40,6 +44,7 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   }
   if (!(payable_m < stretch_m)) return stretch_m;
   energy.payable_m = payable_m;
+  energy.is_unpaid = true;
   return payable_m;
 }
 

@@ -26,10 +26,11 @@ struct Energy {
   float available_J = FLT_MAX;   // limited to a full reservoir in the first tick
   float stretch_m = 0;           // hand to proxy in the last tick
   float entered_m = 0;           // growth of the stretch in the last tick
-  float payable_m = 0;           // result of the last tick; less than stretch_m: unpaid
+  float payable_m = 0;           // result of the last tick
   math::Vec3 position_m;         // of the last tick
   math::Vec3 contact_N;          // applied since then; the caller sets it
-  uint32_t overdrawn_ticks = 0;  // without a break, by more than kOverdraft_J
+  uint16_t overdrawn_ticks = 0;  // without a break, by more than kOverdraft_J
+  bool is_unpaid = false;        // another tick of the last force is not paid for
 };
 
 /// Counts the work of the last tick and limits the spring to the energy that is left.

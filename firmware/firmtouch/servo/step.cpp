@@ -130,10 +130,8 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
                        settings.force_limit_N * (4.0f * kRound);
   Vec3 force_N =
       shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
-  // A force that is not paid for must not last: it falls faster than its slew limit. So does that
-  // of a tool that leaves, if another such tick is not paid for.
-  if (state.energy.payable_m < state.energy.stretch_m)
-    force_N = shorten(force_N, math::length(wanted_N));
+  // A force that is not paid for must not last: it falls faster than its slew limit.
+  if (state.energy.is_unpaid) force_N = shorten(force_N, math::length(wanted_N));
   if (model.spring.is_used) {
     const float kept = share_within(model_N, settings.force_limit_N) * share;
     state.energy.contact_N = force_N - other_N * kept;
