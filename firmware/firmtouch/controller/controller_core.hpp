@@ -62,7 +62,8 @@ class ControllerCore {
   bool has_no_fault() const { return live_.servo.faults == 0; }
   /// Corrects the energy that the observer is about to count.
   void count_rendered(const Rendered& last);
-  /// Result: the result to make of tick.request now; null at two rates.
+  /// Result: the result to make of tick.request now; null at two rates, where the request goes out
+  /// with the proxy of the model that this tick uses.
   ModelResult* result_of_tick(Tick& tick, uint32_t flags);
   /// The servo: what the motors shall do.
   Push step(const Tick& tick, uint32_t flags, record::TickOutput& output);

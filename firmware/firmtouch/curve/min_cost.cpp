@@ -222,6 +222,7 @@ bool min_cost_beside(const View& curve, math::Vec3 p_m, const ArcPenalty& penalt
   closest.certificate.work += least.charged();
   if (!is_done) return false;
   const query::Certificate certificate = closest.certificate;
+  // Another segment, or on its own a foot beside the sample.
   if (least.best_at() != closest.segment || least.best().t > 0.0f)
     closest = any_answer(curve, least.best());
   found.cost_m = least.cost_m();
