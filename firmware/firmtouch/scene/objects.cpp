@@ -10,14 +10,11 @@ namespace {
 
 using math::Vec3;
 
-// Lengths are rounded up by so much.
-constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
-
 constexpr math::RigidTransform kUnmoved;
 
 }  // namespace
 
-float ObjectsTick::length_up_m(Vec3 way_m) { return math::length(way_m) * kUp; }
+float ObjectsTick::length_up_m(Vec3 way_m) { return math::length(way_m) * kLengthUp; }
 
 ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, float size_m,
                          ObjectsTouch& touch)

@@ -25,11 +25,6 @@ constexpr float kBand = 0.02f;
 constexpr float kCap = 0.9f;
 constexpr float kLongestWay = 0.02f;  // that is searched at once
 constexpr uint32_t kMinWayWork = 64;  // units, to search a way
-// Parts of a free radius by which the search for the side goes on: together within it.
-constexpr float kTowards = 0.7f;
-constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
-// Lengths are rounded up by so much.
-constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;
 
 bool is_same(const Feature& a, const Feature& b, float within_m) {
   // Most differ here already.
@@ -167,7 +162,7 @@ void ProxyMove::take_all() {
 // held they are taken for a way of 0.
 math::Slide ProxyMove::rest() {
   const Vec3 way_m = goal_m_ - proxy_.position_m;
-  if (math::length(way_m) * kUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
+  if (math::length(way_m) * kLengthUp < proxy_.free_m - aimed_radius_m_) return {way_m, false};
   if (proxy_.is_loaded) friction_.slid_m = math::length(proxy_.position_m - begin_m_);
   begin_planes();
   take_active();  // most often the same hold it again: then it is solved once
@@ -195,7 +190,7 @@ math::Slide ProxyMove::rest() {
 // Result: whether that is enough. Before a query has found what is near, that is all of the radius:
 // a tool that is nearer is led back under load, which gives the hand energy.
 bool ProxyMove::is_within_certified(Vec3 to_m, float& left_m) const {
-  left_m = (proxy_.free_m - math::length(to_m - proxy_.position_m) * kUp) * (1.0f - 0x1p-22f);
+  left_m = (proxy_.free_m - math::length(to_m - proxy_.position_m) * kLengthUp) * (1.0f - 0x1p-22f);
   const bool is_held = proxy_.active.count > 0 && moved_.queries > 0;
   return left_m >= (is_held ? needed_m() : proxy_.radius_m);
 }
@@ -214,7 +209,7 @@ bool ProxyMove::aim() {
   if (proxy_.phase != Proxy::Phase::kFree) {
     if (moved_.queries == kMaxQueries) return false;
     if (moved_.queries > 0) return true;
-    is_searching_ = math::length(goal_m_ - proxy_.searched_m) * kUp < proxy_.searched_free_m;
+    is_searching_ = math::length(goal_m_ - proxy_.searched_m) * kLengthUp < proxy_.searched_free_m;
     trial_m_ = is_searching_ ? proxy_.position_m : goal_m_;
     return true;
   }
@@ -251,7 +246,7 @@ bool ProxyMove::aim() {
   if (moved_.queries == kMaxQueries) return false;
   // Within the ball that is certainly free. Where its radius is of the size of rounding, the tool
   // may stand for ever.
-  const float step_m = math::length(trial_m_ - proxy_.position_m) * kUp;
+  const float step_m = math::length(trial_m_ - proxy_.position_m) * kLengthUp;
   is_over_ = !(step_m < proxy_.free_m) || (!(step_m > 0.0f) && !moved_.is_optimal);
   if (is_over_) moved_.is_starved = true;
   return !is_over_;
@@ -290,58 +285,6 @@ void ProxyMove::drop_base_hull() {
     } else {
       ++i;
     }
-  }
-}
-
-// Where the side of the hand is not known, the search goes on from ball to ball towards the
-// surface, where it needs fewer visits, in the next tick if it must: in free balls that overlap all
-// has one side. It goes aside, too: on the axis of a turned part the triangles of a whole ring are
-// equally near, all the way.
-void ProxyMove::begin_contact(const Near& near) {
-  is_over_ = true;
-  if (!is_searching_) {
-    proxy_.near = near;
-    proxy_.searched_m = goal_m_;
-    proxy_.searched_free_m = near.lower_m;
-  }
-  if (!near.has_inside || near.sign != 0) {
-    begin_at_hand(near.sign);
-    proxy_.feature_count = 0;
-    if (!is_searching_) keep(near.feature);
-    return;
-  }
-  moved_.is_starved = true;
-  proxy_.phase = Proxy::Phase::kUnknown;
-  const Tangent tangent = tangent_at(near.feature, trial_m_, {});
-  const Vec3 step = tangent.normal * __builtin_copysignf(kTowards, tangent.distance_m) + kAside;
-  proxy_.position_m = trial_m_ = trial_m_ - step * near.lower_m;
-  is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
-  is_over_ = !is_searching_;
-}
-
-void ProxyMove::begin_at_hand(int8_t sign) {
-  const float moved_m = math::length(goal_m_ - proxy_.searched_m);
-  proxy_.position_m = begin_m_ = goal_m_;
-  proxy_.free_m = proxy_.searched_free_m - moved_m * kUp;
-  proxy_.near.lower_m = proxy_.free_m;
-  proxy_.near.distance_m = proxy_.near.distance_m + moved_m;
-  proxy_.near.sign = sign;
-  proxy_.searched_free_m = 0;
-  proxy_.slid_m = 0;
-  const float least_m = kMinRadius * size_m_;
-  const float radius_m = settings_.radius_m > least_m ? settings_.radius_m : least_m;
-  moved_.is_starved = false;
-  moved_.is_optimal = true;
-  if (sign < 0) {
-    proxy_.phase = Proxy::Phase::kInside;
-  } else if (proxy_.free_m >= least_m) {
-    proxy_.phase = Proxy::Phase::kFree;
-    proxy_.is_growing = proxy_.free_m < radius_m;
-    proxy_.radius_m = proxy_.is_growing ? proxy_.free_m : radius_m;
-  } else {  // on the surface
-    proxy_.phase = Proxy::Phase::kUnknown;
-    moved_.is_optimal = false;
-    moved_.is_starved = true;
   }
 }
 

@@ -19,6 +19,8 @@ constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clea
 // On a shape that proves no way free (free_part() in scene/touched.hpp) a move ends with the free
 // ball, so a smaller one would lag behind a hand.
 constexpr float kMinBall = 1e-3f;
+// A length times this is rounded up.
+constexpr float kLengthUp = 1.0f + 8.0f * 0x1p-24f;
 
 struct ProxySettings {
   float radius_m = 0;

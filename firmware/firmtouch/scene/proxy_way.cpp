@@ -1,21 +1,10 @@
-// Where a proxy's way is longer than its free ball, and what is known about it.
+// Where a proxy's way is longer than its free ball.
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/proxy.hpp"
 
 namespace firmtouch::scene {
 
 using math::Vec3;
-
-Bounds bounds_of(const Proxy& proxy, Vec3 hand_m) {
-  float free_m = proxy.near.lower_m;
-  if (proxy.phase == Proxy::Phase::kFree)
-    free_m = proxy.free_m;
-  else if (proxy.searched_free_m > 0.0f)  // while the side is looked for the hand goes on
-    free_m = math::larger(
-        free_m - math::length(hand_m - proxy.searched_m) * (1.0f + 8.0f * 0x1p-24f), 0.0f);
-  // Since the last query it has moved by what the free radius has lost.
-  return {free_m, proxy.near.distance_m + (proxy.near.lower_m - free_m)};
-}
 
 ProxySettings with_ball(const ProxySettings& settings, float size_m) {
   ProxySettings used = settings;

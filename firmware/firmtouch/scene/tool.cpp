@@ -8,7 +8,6 @@ namespace {
 
 using math::Vec3;
 
-constexpr float kUp = 1.0f + 8.0f * 0x1p-24f;  // lengths are rounded up by so much
 // A sphere is far where so many of its radii are certified to be free.
 constexpr float kFar = 2.0f;
 // A spring is at most so many times as long as that of the sphere that is pressed most: spheres
@@ -74,7 +73,7 @@ bool ToolTick::drift(ProxyTouch& touch, Vec3 to_m, float radius_m) const {
   Proxy& proxy = touch.proxy;
   if (proxy.phase != Proxy::Phase::kFree || proxy.is_loaded || proxy.is_growing) return false;
   if (!contact_.has_proxy) return false;
-  const float moved_m = math::length(to_m - proxy.position_m) * kUp;
+  const float moved_m = math::length(to_m - proxy.position_m) * kLengthUp;
   const float left_m = (proxy.free_m - moved_m) * (1.0f - 0x1p-22f);
   const float own_m = proxy.radius_m > radius_m ? proxy.radius_m : radius_m;
   if (!(left_m >= kFar * own_m)) return false;

@@ -1,0 +1,78 @@
+// How a contact begins: the side of the hand, and what is certified until it is known.
+#include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/proxy.hpp"
+
+namespace firmtouch::scene {
+namespace {
+
+using math::Vec3;
+
+// Parts of a free radius by which the search for the side goes on: together within it.
+constexpr float kTowards = 0.7f;
+constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
+
+}  // namespace
+
+Bounds bounds_of(const Proxy& proxy, Vec3 hand_m) {
+  float free_m = proxy.near.lower_m;
+  if (proxy.phase == Proxy::Phase::kFree)
+    free_m = proxy.free_m;
+  else if (proxy.searched_free_m > 0.0f)  // while the side is looked for the hand goes on
+    free_m = math::larger(free_m - math::length(hand_m - proxy.searched_m) * kLengthUp, 0.0f);
+  // Since the last query it has moved by what the free radius has lost.
+  return {free_m, proxy.near.distance_m + (proxy.near.lower_m - free_m)};
+}
+
+// Where the side of the hand is not known, the search goes on from ball to ball towards the
+// surface, where it needs fewer visits, in the next tick if it must: in free balls that overlap all
+// has one side. It goes aside, too: on the axis of a turned part the triangles of a whole ring are
+// equally near, all the way.
+void ProxyMove::begin_contact(const Near& near) {
+  is_over_ = true;
+  if (!is_searching_) {
+    proxy_.near = near;
+    proxy_.searched_m = goal_m_;
+    proxy_.searched_free_m = near.lower_m;
+  }
+  if (!near.has_inside || near.sign != 0) {
+    begin_at_hand(near.sign);
+    proxy_.feature_count = 0;
+    if (!is_searching_) keep(near.feature);
+    return;
+  }
+  moved_.is_starved = true;
+  proxy_.phase = Proxy::Phase::kUnknown;
+  const Tangent tangent = tangent_at(near.feature, trial_m_, {});
+  const Vec3 step = tangent.normal * __builtin_copysignf(kTowards, tangent.distance_m) + kAside;
+  proxy_.position_m = trial_m_ = trial_m_ - step * near.lower_m;
+  is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
+  is_over_ = !is_searching_;
+}
+
+void ProxyMove::begin_at_hand(int8_t sign) {
+  const float moved_m = math::length(goal_m_ - proxy_.searched_m);
+  proxy_.position_m = begin_m_ = goal_m_;
+  proxy_.free_m = proxy_.searched_free_m - moved_m * kLengthUp;
+  proxy_.near.lower_m = proxy_.free_m;
+  proxy_.near.distance_m = proxy_.near.distance_m + moved_m;
+  proxy_.near.sign = sign;
+  proxy_.searched_free_m = 0;
+  proxy_.slid_m = 0;
+  const float least_m = kMinRadius * size_m_;
+  const float radius_m = settings_.radius_m > least_m ? settings_.radius_m : least_m;
+  moved_.is_starved = false;
+  moved_.is_optimal = true;
+  if (sign < 0) {
+    proxy_.phase = Proxy::Phase::kInside;
+  } else if (proxy_.free_m >= least_m) {
+    proxy_.phase = Proxy::Phase::kFree;
+    proxy_.is_growing = proxy_.free_m < radius_m;
+    proxy_.radius_m = proxy_.is_growing ? proxy_.free_m : radius_m;
+  } else {  // on the surface
+    proxy_.phase = Proxy::Phase::kUnknown;
+    moved_.is_optimal = false;
+    moved_.is_starved = true;
+  }
+}
+
+}  // namespace firmtouch::scene
