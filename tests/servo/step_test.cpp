@@ -264,6 +264,8 @@ TEST(LoweredLimitTakesForceAwayAtOnce) {
 
 TEST(FreeRadius_IsReported) {
   servo::State state;
-  CHECK(servo::step(state, kSettings, floor_model(), at(0.009f, 0)).in_free_radius);
-  CHECK(!servo::step(state, kSettings, floor_model(), at(0.011f, 1)).in_free_radius);
+  servo::LocalModel model = floor_model();
+  model.made_at_m = {0, 0, 0.02f};
+  CHECK(servo::step(state, kSettings, model, at(0.011f, 0)).in_free_radius);
+  CHECK(!servo::step(state, kSettings, model, at(0.009f, 1)).in_free_radius);
 }
