@@ -106,6 +106,30 @@ TEST(Materials_BorderOfFrictionUnderLoad_MakesNoStepOfTheForce) {
   CHECK_LE(std::fabs(wide(before_N.x)), 0.02);
 }
 
+TEST(Materials_BehindABorderUnderLoad_FrictionIsThatOfTheMaterial) {
+  MaterialsRig rig =
+      plates(material("slick", 1000, 0.1f, 0.05f), material("rough", 1000, 0.6f, 0.4f));
+  const float deep = kTop_m - 0.002f;
+  rig.go({-0.01f, 0, 0.01f}, {-0.01f, 0, deep}, 100);
+  for (const float to : {0.01f, -0.01f}) {
+    rig.go({-to, 0, deep}, {to, 0, deep}, 400);
+    CHECK_EQ(rig.state.response.friction_static, to > 0 ? 0.6f : 0.1f);
+    CHECK_EQ(rig.state.response.friction_dynamic, to > 0 ? 0.4f : 0.05f);
+  }
+}
+
+// Where the base hull alone holds the tool, the response stays as it was.
+TEST(Materials_HeldByTheBaseHull_StayAsTheyWere) {
+  MaterialsRig rig = plates(material("rough", 1000, 0.6f, 0.4f), material("slick", 1000));
+  const Vec3 deep_m{-0.01f, 0, kTop_m - 0.002f};
+  const Vec3 before_N = rig.go({-0.01f, 0, 0.01f}, deep_m, 100);
+  for (scene::Feature& feature : rig.touch.proxy.feature) feature.is_of_base_hull = true;
+  rig.contact.settings.budget.work = 1;
+  const Vec3 force_N = rig.tick(deep_m);
+  CHECK_LE(std::fabs(wide(force_N.z) - wide(before_N.z)), 1e-6);
+  CHECK_EQ(rig.state.response.friction_static, 0.6f);
+}
+
 // A corner of two materials: each bears its own, and their mean where both hold the tool. The hand
 // comes in the direction of the load, so that the shares stay.
 TEST(Materials_Corner_HasTheMeanByShareOfLoad) {
