@@ -159,6 +159,23 @@ TEST(Tool_FarSpheres_CostNoQuery) {
   CHECK_LE(queries, 330u);
 }
 
+// At two rates servo lets the hand go as far as that.
+TEST(Tool_InTheFree_ReachesAsFarAsTheSphereWithTheLeastRoom) {
+  ToolRig rig(plate(0.01f), {{{0, 0, 0.03f}, 0.002f}, {{0, 0, 0}, 0.002f}});
+  rig.touch_at({0, 0, 0.01f});
+  CHECK(rig.model.spring.is_used && !rig.model.spring.is_held);
+  CHECK_LE(std::fabs(wide(rig.model.spring.reach_m) - 0.008), 1e-6);
+  CHECK_LE(std::fabs(wide(rig.model.free_radius_m) - 0.01), 1e-6);
+}
+
+TEST(Tool_OneOfTwoSpheresTouches_HasHalfOfStiffnessAndDamping) {
+  ToolRig rig(plate(0.01f), {{{0, 0, 0.03f}, 0.002f}, {{0, 0, 0}, 0.002f}});
+  rig.contact.material.damping_N_s_per_m = 4;
+  for (uint32_t i = 0; i <= 90; ++i) rig.touch_at({0, 0, 0.01f - 0.0001f * static_cast<float>(i)});
+  CHECK_LE(std::fabs(wide(rig.model.spring.stiffness_N_per_m) - 500), 0.01);
+  CHECK_LE(std::fabs(wide(rig.model.spring.damping_N_s_per_m) - 2), 1e-4);
+}
+
 // The work of a tick moves some of eight pressed spheres: they take turns, and the model says so.
 TEST(Tool_WorkForSomeSpheres_TheyTakeTurnsAndTheModelIsUncertain) {
   std::vector<scene::SphereLayout> spheres;
