@@ -68,6 +68,8 @@ TEST(AOneSidedGuideIsTheEdgeOfARuler) {
   CHECK(is_near(rig.force_N({0.05f, 0.004f, 0.503f}), {0, 0, 0}));
   CHECK(rig.touch.is_held);
   CHECK(is_near(rig.force_N({0.2f, 0.05f, 0.504f}), {0, 0, 0}));  // there it runs to its free side
+  rig.guide.tunnel_m = 0.001f;
+  CHECK(is_near(rig.force_N({0.05f, -0.004f, 0.5f}), {0, 0.3f, 0}));
 }
 
 TEST(AGuideThatLetsGoAtItsEndsTakesHoldOnlyAfterTheToolWasClearOrCameBack) {
@@ -137,6 +139,8 @@ TEST(ALeadPullsAtItsSpeedWithAtMostItsForceAndWaits) {
   math::Vec3 force_N;
   for (uint32_t i = 0; i < 20; ++i) force_N = rig.force_N({0.05f, 0, 0.5f});  // tool stays
   CHECK(is_near(force_N, {0.2f, 0, 0}, 1e-4f));  // 20 ticks of 0.1 mm at 100 N/m
+  // A servo of its own rate: 1 mm ahead of where the model was made.
+  CHECK(is_near(servo::evaluate(rig.model, {0.051f, 0, 0.5f}, {}), {0.1f, 0, 0}, 1e-4f));
   for (uint32_t i = 0; i < 500; ++i) force_N = rig.force_N({0.05f, 0, 0.5f});
   CHECK(is_near(force_N, {0.5f, 0, 0}, 1e-4f));
   for (uint32_t i = 0; i <= 30; ++i)  // the tool comes after, a little faster
