@@ -139,6 +139,32 @@ TEST(ClosedForm_FarFromTheOrigin_BoundsAreAsCloseAsNearIt) {
     });
 }
 
+// Also inside, where a tool is led out the nearest way.
+TEST(ClosedForm_OfAnyPoint_DistanceSideAndNearestPointAreTrue) {
+  Shapes shapes(8);
+  uint32_t inside = 0;
+  for (int round = 0; round < 20000; ++round)
+    shapes.each([&](auto shape) {
+      const double size_m = wide(shape.size_m());
+      const Vec3 any_m = shapes.any(0.1);
+      const scene::Near before = shape.near(any_m, {}, 0);
+      const Vec3 at_m =
+          any_m - before.outward *
+                      (before.distance_m + static_cast<float>(size_m * shapes.between(-0.1, 0.4)));
+      const scene::Near near = shape.near(at_m, {}, 0);
+      const double true_m = truth_m(shape, at_m), slack_m = 2e-6 * (std::fabs(true_m) + size_m);
+      inside += true_m < 0 ? 1u : 0u;
+      CHECK_LE(std::fabs(wide(near.distance_m) - std::fabs(true_m)), slack_m);
+      if (std::fabs(true_m) > slack_m) CHECK_EQ(near.sign, true_m < 0 ? -1 : 1);
+      const Vec3 nearest_m = at_m - near.outward * static_cast<float>(true_m);
+      const double of_place_m = slack_m + 3e-8;  // what its coordinates round
+      CHECK_LE(std::fabs(truth_m(shape, nearest_m)), of_place_m);
+      if (near.feature.kind == scene::Feature::Kind::kTriangle)
+        CHECK_LE(wide(scene::tangent_at(near.feature, nearest_m, {}).distance_m), of_place_m);
+    });
+  CHECK_GE(inside, 50000u);
+}
+
 TEST(SmallTool_WayThatAShapeProvesFree_IsFree) {
   Shapes shapes(3);
   uint32_t long_ways = 0, ways = 0;
