@@ -34,7 +34,7 @@ static inline Vec3 apply_inverse(const RigidTransform& t, Vec3 point_m) {
 
 /// True where all three are finite: the comparison fails on NaN.
 static inline bool is_finite(float a) { return a - a <= 0.0f; }
-static inline bool is_finite(Vec3 a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
+static inline bool is_finite(Vec3 a) { return (a.x - a.x) + (a.y - a.y) + (a.z - a.z) <= 0.0f; }
 
 /// True where |a| <= most, in each axis: on the bits, whose order is that of the sizes. NaN fails.
 static inline bool is_within(float a, float most) {
