@@ -85,6 +85,18 @@ TEST(ForceRampsInAfterEnable) {
   }
 }
 
+TEST(LongerRampIn_OfAForceThatIsOn_TakesNothingAway) {
+  const servo::LocalModel model = floor_model();
+  servo::State state = pressed(model);
+  servo::Settings longer = kSettings;
+  longer.ramp_in_s = 10.0f;
+  for (uint32_t tick = 100; tick < 110; ++tick) {
+    const servo::StepOutput output = servo::step(state, longer, model, at(-0.001f, tick));
+    CHECK_EQ(output.force_N.z, 1.0f);
+    CHECK_EQ(static_cast<int>(output.mode), static_cast<int>(servo::Mode::kOn));
+  }
+}
+
 TEST(NothingIsRenderedUnlessEnabled) {
   servo::State state;
   servo::StepInput input = at(-0.1f, 0);

@@ -113,12 +113,8 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   if (state.ticks_on < UINT32_MAX) ++state.ticks_on;
   const float ramp =
       static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
-  float share = 1.0f;
-  if (ramp < 1.0f) {
-    share = ramp;
-  } else {
-    state.mode = Mode::kOn;
-  }
+  if (!(ramp < 1.0f)) state.mode = Mode::kOn;
+  const float share = state.mode == Mode::kOn ? 1.0f : ramp;
   const Vec3 other_N = evaluate(model, input.position_m, input.velocity_mps);
   const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, stretch_m, input.position_m,
                                            input.velocity_mps - model.spring.velocity_mps)) *
