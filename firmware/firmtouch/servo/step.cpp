@@ -46,7 +46,8 @@ uint32_t seen_faults(const State& state, const Settings& settings, const LocalMo
   uint32_t faults = input.reported;
   if (!is_sound(settings)) faults |= kFaultSettings;
   if (!math::is_within(input.position_m, kMaxPosition_m) ||
-      !math::is_within(input.velocity_mps, kMaxVelocity_mps) || !math::is_finite(state.force_N)) {
+      !math::is_within(input.velocity_mps, kMaxVelocity_mps) ||
+      !math::is_finite(state.force_N + state.part_N)) {
     faults |= kFaultNotFinite;
   }
   if (!is_sound(model)) faults |= kFaultModel;
@@ -68,7 +69,7 @@ __attribute__((noinline)) uint32_t ramp_out_ticks(const Settings& settings) {
 
 void begin_ramp_out(State& state, const Settings& settings) {
   state.mode = Mode::kRampOut;
-  state.ramp_from_N = state.force_N;
+  state.part_N = state.force_N;
   state.ramp_out_left = ramp_out_ticks(settings);
 }
 
@@ -84,6 +85,7 @@ void change_mode(State& state, const Settings& settings, bool enable) {
   } else if (state.mode == Mode::kOff && enable) {
     state.mode = Mode::kRampIn;
     state.ticks_on = 0;
+    state.part_N = {};
   } else if (state.mode > Mode::kFault) {  // no such mode: memory was corrupted
     state.mode = Mode::kFault;
   }
@@ -93,7 +95,7 @@ Vec3 ramped_out(State& state, const Settings& settings) {
   if (state.ramp_out_left > 0) --state.ramp_out_left;
   const float share =
       static_cast<float>(state.ramp_out_left) / static_cast<float>(ramp_out_ticks(settings));
-  return shorten(state.ramp_from_N * share, settings.force_limit_N);
+  return shorten(state.part_N * share, settings.force_limit_N);
 }
 
 // Moves the proxy, and counts the energy of the last tick.
@@ -119,7 +121,8 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, stretch_m, input.position_m,
                                            input.velocity_mps - model.spring.velocity_mps)) *
                        share;
-  const Vec3 wanted_N = shorten(model_N, settings.force_limit_N);
+  const float within = share_within(model_N, settings.force_limit_N);
+  const Vec3 wanted_N = model_N * within;
   // The sum below rounds by half an ulp of an axis, at most the limit; subtracted from the step
   // here.
   const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
@@ -128,10 +131,9 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
       shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
   // A force that is not paid for must not last: it falls faster than its slew limit.
   if (state.energy.is_unpaid) force_N = shorten(force_N, math::length(wanted_N));
-  if (model.spring.is_used) {
-    const float kept = share_within(model_N, settings.force_limit_N) * share;
-    state.energy.contact_N = force_N - other_N * kept;
-  }
+  // What the motors lag behind the other forces is not contact's.
+  state.part_N = state.part_N + shorten(other_N * (within * share) - state.part_N, step_N);
+  if (model.spring.is_used) state.energy.contact_N = force_N - state.part_N;
   return force_N;
 }
 

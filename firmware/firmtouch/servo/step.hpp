@@ -59,8 +59,8 @@ struct State {
   uint32_t faults = 0;
   uint32_t ticks_on = 0;
   uint32_t ramp_out_left = 0;
-  math::Vec3 force_N;      // of the last tick
-  math::Vec3 ramp_from_N;  // at the start of the ramp out
+  math::Vec3 force_N;  // of the last tick
+  math::Vec3 part_N;   // while on, what of it planes and guide make; in a ramp out, where it began
   math::Vec3 proxy_m;
   bool has_proxy = false;
   uint32_t uncertain_ticks = 0;  // of the models, without a break
