@@ -83,6 +83,7 @@ link::AssetAck AssetUpdate::begin(const link::BeginAsset& wanted) {
   wanted_ = wanted;
   crc_ = 0;
   last_ = {};
+  controller.begin_next({});  // the scene of the asset before may be of this slot
   const hal::AssetSlots slots = hal::board_asset_slots();
   const uint32_t size = slots.slot[slot_].size();
   // The mark first: from here on nothing of this slot counts.

@@ -189,6 +189,19 @@ TEST(AssetUpdate_Taken_IsInUseAtOnceAndAfterARestart) {
   }
 }
 
+// The scene of the asset before refers to the slot that is about to be erased. An update that stops
+// there, and a lock-step whose ticks swap, touched flash that nobody had proven.
+TEST(AssetUpdate_ThatHasBegun_LeavesNothingToSwapTo) {
+  begin_with_first();
+  CHECK_EQ(load(file(1).bytes()).result, link::kAckTaken);
+  CHECK(app::controller.can_swap());  // back
+  CHECK_EQ(begin(file(0).bytes()), link::kAckTaken);
+  CHECK(!app::controller.can_swap());
+  asset_update.abort();
+  CHECK(!app::controller.swap());
+  CHECK(in_use_is(file(1).bytes()));
+}
+
 // Each flipped bit of an asset whose blocks and CRC arrive as sent.
 TEST(AssetUpdate_DamagedAsset_IsRejectedAndTheOldOneStays) {
   begin_with_first();
