@@ -3,6 +3,8 @@
 #include <float.h>
 #include <stdint.h>
 
+#include "firmtouch/math/sine_cosine.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/test.hpp"
@@ -70,6 +72,26 @@ TEST(AOneSidedGuideIsTheEdgeOfARuler) {
   CHECK(is_near(rig.force_N({0.2f, 0.05f, 0.504f}), {0, 0, 0}));  // there it runs to its free side
   rig.guide.tunnel_m = 0.001f;
   CHECK(is_near(rig.force_N({0.05f, -0.004f, 0.5f}), {0, 0.3f, 0}));
+}
+
+// 5 mm behind the edge all around the outside of the corner. The edge of one side was used until
+// the other side was nearer: 0.5 N fell to none, and came back at once along the other axis.
+TEST(OneSidedGuide_AroundACorner_ForceHasNoJump) {
+  Rig rig;
+  rig.guide.free_side = {-1, 1, 0};
+  constexpr uint32_t kSteps = 200;
+  math::Vec3 before;
+  for (uint32_t i = 0; i < 3 * kSteps; ++i) {
+    const float t = (static_cast<float>(i % kSteps) + 0.5f) / static_cast<float>(kSteps);
+    const math::SineCosine turn = math::sine_cosine(1.57079633f * t);
+    math::Vec3 at_m{0.19f + 0.01f * t, -0.005f, 0.5f};
+    if (i >= kSteps) at_m = {0.2f + 0.005f * turn.sine, -0.005f * turn.cosine, 0.5f};
+    if (i >= 2 * kSteps) at_m = {0.205f, 0.01f * t, 0.5f};
+    const math::Vec3 force_N = rig.force_N(at_m);
+    CHECK(is_near(force_N, force_N * (0.5f / math::length(force_N)), 1e-3f));
+    if (i > 0) CHECK(is_near(force_N, before, 0.01f));
+    before = force_N;
+  }
 }
 
 TEST(AGuideThatLetsGoAtItsEndsTakesHoldOnlyAfterTheToolWasClearOrCameBack) {

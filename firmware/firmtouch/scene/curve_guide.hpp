@@ -18,7 +18,8 @@ struct CurveGuideTouch : GuideTouch {
 /// Bounds: one query of `budget`, and about 530 instructions; re-entrant for different touches.
 /// Result: a sound model if the material is sound. NaN in the guide's settings counts as 0. Without
 ///         a drive no force does work on a tool that returns to where it was, except the snap,
-///         which gives stiffness snap^2 / 2. A drive gives at most its force times the length.
+///         which gives stiffness snap^2 / 2, and a free side, where another stretch becomes the
+///         nearest or the curve twists. A drive gives at most its force times the length.
 void follow_curve(const CurveGuide& guide, math::Vec3 position_m, query::Budget budget,
                   CurveGuideTouch& touch, servo::LocalModel& model);
 

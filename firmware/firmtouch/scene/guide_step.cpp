@@ -136,7 +136,9 @@ void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, G
   set_drive(guide, found, moved_m, unguided.is_along, touch, line);
   const float side2 = math::dot(guide.free_side, guide.free_side);
   if (side2 >= kMinSide * kMinSide && side2 <= 1e6f) {
-    add_edge(guide, guide.pose.rotation * touch.closest.tangent, line, model);
+    // At a corner the edge is turned with the line; past an end it goes straight on.
+    add_edge(guide, found.end == 0 ? line.direction : guide.pose.rotation * touch.closest.tangent,
+             line, model);
     line.tunnel_m = 0;
   } else {
     line.stiffness_N_per_m = guide.material.stiffness_N_per_m;
