@@ -40,6 +40,9 @@ TEST(ObjIsReadHoweverItIsWritten) {
                    "a.obj"));
   CHECK(reads_cube(
       cube_obj("", "\n", [](int v) { return "\\\n +" + std::to_string(v + 1) + "/1"; }), "a.obj"));
+  CHECK(reads_cube(
+      "l 1 2 \\\n 3\n" + cube_obj(" 1 0 \\\n 0", "\n", [](int v) { return std::to_string(v + 1); }),
+      "a.obj"));  // in what is passed over
   std::string text = cube_obj();
   text.pop_back();
   CHECK(reads_cube("\xEF\xBB\xBF\n\n" + text, "a.obj"));

@@ -137,6 +137,7 @@ void read_obj(std::string_view text, ImportSink& sink) {
                                  "format? Export the model again");
     }
     if (!going_on) return;
+    while (scan.next_word(word)) continue;  // a backslash continues what is passed over, too
   }
   weights.report(sink, "weights of vertices, which only free-form elements have");
   free_forms.report(sink,
