@@ -64,6 +64,22 @@ TEST(ThreeMf_StoredAndDeflated_PlacesGroupsInItsOwnUnit) {
   }
 }
 
+TEST(ThreeMf_GreaterThanSignInAName_EndsNoTag) {
+  std::string plain = gunzip(from_hex(kModelGzip), 1 << 20).bytes;
+  plain.insert(plain.find("<object ") + 8, "name=\"it's >2\" ");
+  const std::string zip =
+      zip_of("3D/3dmodel.model", plain, 0, crc_of(plain), static_cast<uint32_t>(plain.size()));
+  const Imported read = read_surface_bytes(zip, "a.3mf", own_unit());
+  CHECK(read.problem.empty());
+  CHECK_EQ(read.surface.faces.size(), 24u);
+}
+
+TEST(Gltf_EscapedSlashInBase64_IsRead) {
+  const std::string base64 = "AAA\\/" + std::string(220, 'A');
+  const std::string uri = "\"uri\":\"data:a;base64," + base64 + "\",";
+  CHECK(read_surface_bytes(cube_gltf_json(uri.c_str()), "a.gltf", 1).problem.empty());
+}
+
 TEST(GivenUnit_WinsOverThatOfA3mf) {
   const Imported read = read_surface_bytes(model_3mf(8), "a.3mf", 1);
   CHECK_EQ(read.surface.vertices[15].x, 22.0f);

@@ -28,6 +28,7 @@ bool decode_base64(std::string_view text, std::string& out) {
     static constexpr std::string_view kDigits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     if (c == '=') break;
+    if (c == '\\') continue;  // JSON may escape a slash
     const size_t digit = kDigits.find(c);
     if (digit == kDigits.npos) return false;
     held = (held << 6 | static_cast<uint32_t>(digit)) & 0xFFFFFF;

@@ -9,6 +9,15 @@ bool begins(std::string_view text, std::string_view with) {
   return text.substr(0, with.size()) == with;
 }
 
+// Where a tag ends: the first `>` outside the quotes of its attributes.
+size_t end_of_tag(std::string_view text, size_t at) {
+  while ((at = text.find_first_of("\"'>", at)) != text.npos && text[at] != '>') {
+    at = text.find(text[at], at + 1);
+    if (at++ == text.npos) return text.npos;
+  }
+  return at;
+}
+
 }  // namespace
 
 bool XmlScan::next(Tag& tag) {
@@ -20,7 +29,7 @@ bool XmlScan::next(Tag& tag) {
     if (begins(rest, "<!--")) end = "-->";
     if (begins(rest, "<![CDATA[")) end = "]]>";
     if (begins(rest, "<?")) end = "?>";
-    const size_t stop = text_.find(end, at_);
+    const size_t stop = end == ">" ? end_of_tag(text_, at_) : text_.find(end, at_);
     if (stop == text_.npos) return false;
     tag.byte = at_;
     std::string_view inside = text_.substr(at_ + 1, stop - at_ - 1);
