@@ -193,6 +193,16 @@ TEST(AGridTooFine_IsRefusedWithADistanceThatServes) {
   CHECK(says(report.problem, "choose at least"));
 }
 
+TEST(TooManyTriangles_AreRefusedWithADistanceThatServes) {
+  WrapReport report;
+  const size_t count = wrap_surface(cube(), 0.1, report).faces.size();
+  CHECK(wrap_surface(cube(), 0.1, report, count - 1).faces.empty());
+  CHECK(says(report.problem, std::to_string(count) + " triangles"));
+  CHECK(says(report.problem, "choose at least 0.11 m"));
+  CHECK_LT(wrap_surface(cube(), 0.11, report, count - 1).faces.size(), count);
+  CHECK(report.problem.empty());
+}
+
 TEST(BadModels_AreTouchableAfterOneCommand) {
   const uint32_t count = std::getenv("FIRMTOUCH_LONG") != nullptr ? 200 : 8;
   uint32_t mended = 0, wrapped = 0;

@@ -59,10 +59,17 @@ class Wrapper {
     return static_cast<size_t>(std::count(nodes_.begin(), nodes_.end(), kUnreached));
   }
 
+  size_t triangles() const {
+    static constexpr size_t kCut[5] = {0, 1, 2, 1, 0};  // by how many corners are outside
+    size_t count = 0;
+    each_tetrahedron([&](const Where(&corner)[4]) {
+      count += kCut[std::count_if(corner, corner + 4, [&](auto at) { return is_outside(at); })];
+    });
+    return count;
+  }
+
   Surface extract() {
-    for (uint32_t z = 0; z + 1 < n_[2]; ++z)
-      for (uint32_t y = 0; y + 1 < n_[1]; ++y)
-        for (uint32_t x = 0; x + 1 < n_[0]; ++x) cut_cell(x, y, z);
+    each_tetrahedron([&](const Where(&corner)[4]) { cut_tetrahedron(corner); });
     return std::move(wrapped_);
   }
 
@@ -106,22 +113,34 @@ class Wrapper {
 
   bool is_outside(const Where& at) const { return nodes_[index(at)] == kOutside; }
 
+  // Of the cells that the surface cuts.
+  template <class Take>
+  void each_tetrahedron(Take take) const {
+    for (uint32_t z = 0; z + 1 < n_[2]; ++z)
+      for (uint32_t y = 0; y + 1 < n_[1]; ++y)
+        for (uint32_t x = 0; x + 1 < n_[0]; ++x)
+          if (is_cut(x, y, z)) each_of_cell({x, y, z}, take);
+  }
+
+  bool is_cut(uint32_t x, uint32_t y, uint32_t z) const {
+    for (uint32_t k = 1; k < 8; ++k)
+      if (is_outside({x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)}) != is_outside({x, y, z}))
+        return true;
+    return false;
+  }
+
   // The six tetrahedra along the cell's diagonal: one for each order of the axes.
-  void cut_cell(uint32_t x, uint32_t y, uint32_t z) {
-    const bool first = is_outside({x, y, z});
-    bool is_cut = false;
-    for (uint32_t k = 1; k < 8 && !is_cut; ++k)
-      is_cut = is_outside({x + (k & 1), y + (k >> 1 & 1), z + (k >> 2)}) != first;
-    if (!is_cut) return;
+  template <class Take>
+  static void each_of_cell(const Where& cell, Take& take) {
     static constexpr uint8_t kOrders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2},
                                               {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
     for (const auto& order : kOrders) {
-      Where corner[4] = {{x, y, z}, {}, {}, {}};
+      Where corner[4] = {cell, {}, {}, {}};
       for (uint32_t k = 0; k < 3; ++k) {
         corner[k + 1] = corner[k];
         ++corner[k + 1][order[k]];
       }
-      cut_tetrahedron(corner);
+      take(corner);
     }
   }
 
@@ -202,7 +221,8 @@ size_t points_outside(const Surface& soup, const Surface& wrapped) {
 
 }  // namespace
 
-Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report) {
+Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report,
+                     size_t max_triangles) {
   report = {};
   report.cell_m = kCell * distance_m;
   Point low = to_point(soup.vertices[soup.faces[0][0]]), high = low;
@@ -213,14 +233,20 @@ Surface wrap_surface(const Surface& soup, double distance_m, WrapReport& report)
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
   Wrapper wrapper(soup, distance_m, low, high);
-  if (!(wrapper.nodes() <= kMaxNodes)) {
-    const double least_m = distance_m * std::cbrt(wrapper.nodes() / kMaxNodes) * 1.1;
-    report.problem = "--wrap " + soup.frame.length_text(distance_m) +
-                     " needs too fine a grid: choose at least " + soup.frame.length_text(least_m);
-    return {};
-  }
+  const auto refuse = [&](const std::string& why, double times) {
+    report.problem = "--wrap " + soup.frame.length_text(distance_m) + " needs " + why +
+                     ": choose at least " + soup.frame.length_text(1.1 * times * distance_m);
+    return Surface{};
+  };
+  if (!(wrapper.nodes() <= kMaxNodes))
+    return refuse("too fine a grid", std::cbrt(wrapper.nodes() / kMaxNodes));
   wrapper.classify();
   report.voids = wrapper.flood();
+  const size_t triangles = wrapper.triangles();
+  if (triangles > max_triangles)
+    return refuse(std::to_string(triangles) + " triangles, more than the " +
+                      std::to_string(max_triangles) + " of an asset",
+                  std::sqrt(static_cast<double>(triangles) / static_cast<double>(max_triangles)));
   Surface wrapped = wrapper.extract();
   wrapped.frame = soup.frame;
   if (points_outside(soup, wrapped) != 0)
