@@ -25,8 +25,11 @@ const char* verdict(double error, double goal) { return error <= goal ? "" : "  
 
 void print_check(const FirmwareCheck& check) {
   std::printf("poses of the check against the simulation  %u\n", check.poses);
-  std::printf("inverse of forward kinematics              within %.2g m (goal %.2g)%s\n",
-              check.inverse_m, kMaxInverse_m, verdict(check.inverse_m, kMaxInverse_m));
+  if (std::isfinite(check.inverse_m))
+    std::printf("inverse of forward kinematics              within %.2g m (goal %.2g)%s\n",
+                check.inverse_m, kMaxInverse_m, verdict(check.inverse_m, kMaxInverse_m));
+  else
+    std::printf("inverse of forward kinematics              not found at a pose  NOT MET\n");
   std::printf("Jacobian against differences               within %.2g (goal %.2g)%s\n",
               check.jacobian, kMaxJacobianError, verdict(check.jacobian, kMaxJacobianError));
   std::printf("force at the tip, counts to torques        within %.2g %% (goal %.2g)%s\n",
@@ -43,6 +46,11 @@ void print_check(const FirmwareCheck& check) {
 
 void print_row(const char* what, const char* unit, double scale, const Predicted& it, double goal) {
   if (!(it.closed_form > 0)) return;
+  if (!std::isfinite(it.closed_form)) {
+    std::printf("%-43sinfinite: a pose where the links lock, or too small a rotor_  NOT MET\n",
+                what);
+    return;
+  }
   std::printf("%-43s%.5g %s, closed form %.5g, off %.2g %% (goal %.2g)%s\n", what,
               it.measured * scale, unit, it.closed_form * scale, it.error() * 100, goal * 100,
               verdict(it.error(), goal));
