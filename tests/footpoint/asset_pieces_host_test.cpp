@@ -116,3 +116,15 @@ TEST(PatchesAtAPole_AreCutOnlyWhereTheirNeighboursAre) {
              .all({0.2, 0.6, 1}, is_complete)
              .empty());
 }
+
+// A sheet of 1,000:1 whose weights draw its pieces together, until they are narrower than the gap.
+TEST(PiecesNarrowerThanTheGap_AreNotCutWithoutEnd) {
+  tools::SplineModel model;
+  model.surfaces.push_back(tools::hilly_surface(3, 4, 0.3, false));
+  tools::Random random(3);
+  for (tools::ControlPoint& p : model.surfaces[0].points)
+    p.y *= 1e-3, p.z *= 1e-3, p.w = std::pow(10, random.between(-2, 2));
+  const Baked baked(model);
+  CHECK_GT(baked.view.pieces().size(), 10u);
+  CHECK_LE(baked.patches.size(), 16 * size_t{baked.view.pieces().size()});
+}

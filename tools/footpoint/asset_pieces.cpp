@@ -142,8 +142,10 @@ void asset_pieces(const spline::View& view, std::vector<BezierCurve>& curves,
       curves.push_back({piece.degree_u, points_of(view, piece), u - du, u + du, entity});
   }
   const double tolerance = kAssetGap * static_cast<double>(view.head().extent_m);
-  for (int pass = 0; pass < 16 && cut_at_corners(patches, tolerance); ++pass) {
-  }
+  // Pieces narrower than the tolerance never meet edge by edge: their inner edges are listed.
+  const size_t most = 8 * patches.size();
+  for (int pass = 0; pass < 16 && patches.size() < most; ++pass)
+    if (!cut_at_corners(patches, tolerance)) break;
 }
 
 }  // namespace firmtouch::tools
