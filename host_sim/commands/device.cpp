@@ -47,7 +47,7 @@ void print_check(const FirmwareCheck& check) {
 void print_row(const char* what, const char* unit, double scale, const Predicted& it, double goal) {
   if (!(it.closed_form > 0)) return;
   if (!std::isfinite(it.closed_form)) {
-    std::printf("%-43sinfinite: a pose where the links lock, or too small a rotor_  NOT MET\n",
+    std::printf("%-43sinfinite: at a pose the links lock, or a rotor is too light  NOT MET\n",
                 what);
     return;
   }

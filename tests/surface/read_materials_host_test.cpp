@@ -63,6 +63,13 @@ TEST(ObjWithoutUsemtl_HasTheMaterialsOfItsGroups) {
   CHECK(is_of(read(kFiveVertices + "# usemtl none\nf 1 2 3\n", "a.obj"), {0}, {}));
 }
 
+TEST(Obj_BlanksInANameOfAMaterial_AreUnderscores) {
+  CHECK(is_of(read(kFiveVertices + "usemtl steel  brushed # 2\nf 1 2 3\nusemtl steel polished\n"
+                                   "f 1 2 4\n",
+                   "a.obj"),
+              {1, 2}, {"steel_brushed", "steel_polished"}));
+}
+
 TEST(ObjOf300Materials_IsReadAsItIs) {
   std::string text = kFiveVertices;
   std::vector<uint32_t> of;

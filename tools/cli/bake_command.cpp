@@ -52,8 +52,8 @@ Waves are a texture, H from crest to trough, fixed to the asset's axes; a second
 makes a grid of the grooves. They are at most 2 mm and 0.238 L high. A map is a picture of 8
 bits, square with a side of 4 to 64, that repeats every L: black is H below white. It may
 slope by 0.75, and adds to waves. PICTURE.pgm is relative to the file.
-NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`); the number in a
-PLY file's face property material_index counts these lines from 1; 0 is none.
+NAME is that of an OBJ file's `usemtl` (without any: of its groups `g`), with _ for blanks;
+the number in a PLY file's face property material_index counts these lines from 1; 0 is none.
 A file .tool has up to 8 spheres of a tool, in the frame of its handle; they touch the
 mesh instead of one sphere at the tip:
   sphere X Y Z mm radius R mm

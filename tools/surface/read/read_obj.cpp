@@ -95,10 +95,13 @@ std::string_view material_word(std::string_view text, const ImportSink& sink) {
   return "g";
 }
 
-// A group without a name, which OBJ calls `default`, has no material.
+// A group without a name, which OBJ calls `default`, has no material; of several groups the first
+// has. Exporters write names of materials with blanks: they become _.
 bool read_material(TextScan& scan, std::string_view keyword, ImportSink& sink) {
-  std::string_view name;
-  if (!scan.next_word(name)) name = {};
+  std::string name;
+  std::string_view word;
+  while (scan.next_word(word) && (name.empty() || keyword != "g"))
+    name += (name.empty() ? "" : "_") + std::string(word);
   sink.use_material(name);
   return !name.empty() || keyword == "g" ||
          sink.defect({scan.line()}, "usemtl", "usemtl without the name of a material: add one");
