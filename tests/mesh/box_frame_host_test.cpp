@@ -109,8 +109,11 @@ TEST(BoxFrame_Crossings_AreThoseWithoutIt) {
     for (int i = 0; i < (long_run() ? 20000 : 2000); ++i) {
       test::note("case", i);
       const double reach = i % 2 == 0 ? 0.5 : std::pow(10.0, i % 5);
-      const Vec3 a = random_point(part.view.head(), random, reach),
-                 b = random_point(part.view.head(), random, 0.3), beyond = b + (b - a);
+      const Vec3 a = random_point(part.view.head(), random, reach);
+      // Half of them through a vertex, which is on the edge of a box.
+      const Vec3 b = i % 4 < 2 ? random_point(part.view.head(), random, 0.3)
+                               : part.view.vertex(random.below(part.view.head().vertex_count));
+      const Vec3 beyond = b + (b - a);
       mesh::SurfaceCrossing one[64], other[64];
       const mesh::Crossings of = mesh::all_crossings(part.view, a, beyond, query::kUnlimited, one);
       const mesh::Crossings wanted =
