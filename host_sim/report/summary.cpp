@@ -333,9 +333,9 @@ std::string load_text(const Summary& s) {
 std::string text_of(const Summary& s, const RunFacts& trace) {
   std::string text;
   const auto line = [&](const char* format, auto... values) {
-    char buffer[256];
-    std::snprintf(buffer, sizeof buffer, format, values...);
-    text += buffer;
+    const size_t at = text.size();
+    text.resize(at + static_cast<size_t>(std::snprintf(nullptr, 0, format, values...)));
+    std::snprintf(&text[at], text.size() - at + 1, format, values...);
   };
   line("  ticks          %zu at %g Hz (%.4g s), controller: %s\n", s.ticks, s.rate_Hz, s.seconds,
        trace.controller.c_str());
