@@ -33,14 +33,15 @@ servo::LocalModel wall(float z_m) {
 // A tool that something else moves, and its energy account in double.
 struct Tool {
   explicit Tool(float reservoir_J) : limits(settings(reservoir_J)) {}
-  servo::StepOutput at(float z_m) {
+  servo::StepOutput at(float z_m, bool is_wall_there = true) {
     given_J +=
         static_cast<double>(force_N) * (static_cast<double>(z_m) - static_cast<double>(at_m));
     servo::StepInput input;
     input.position_m = {0, 0, z_m};
     input.tick = tick++;
     input.enable = true;
-    const servo::StepOutput output = servo::step(state, limits, wall(z_m), input);
+    const servo::StepOutput output =
+        servo::step(state, limits, wall(is_wall_there ? z_m : 1.0f), input);
     at_m = z_m;
     force_N = output.force_N.z;
     return output;
@@ -84,6 +85,23 @@ TEST(Energy_ToolThatAllButLeft_IsPushedByItsSpringAlone) {
   tool.at(0.0001f);
   for (int tick = 0; tick < 4; ++tick) tool.at(-0.0016f);
   CHECK_LE(tool.at(-0.00001f).force_N.z, kStiffness_N_per_m * 0.0000101f);
+}
+
+// At two rates a model may say late that the tool is in free space: its force fell by its slew
+// limit while the hand turned, gave 5 mJ that the wall no longer stored, and was a fault.
+TEST(Energy_WallThatWentAway_PushesNoMore) {
+  Tool tool(kReservoir_J);
+  tool.limits.slew_limit_N_per_s = 1000;
+  tool.at(0.0001f);
+  for (int tick = 0; tick < 20; ++tick) tool.at(-0.0016f);
+  CHECK_GE(tool.force_N, 7.9f);
+  const double before_J = tool.given_J;
+  CHECK_GE(tool.at(-0.0016f, false).force_N.z, 6.9f);  // by its slew limit
+  for (float z_m = -0.0014f; z_m < 0.0f; z_m += 0.0002f) {
+    CHECK_LE(tool.at(z_m, false).force_N.z, 0.0f);
+    CHECK_EQ(tool.state.faults, 0u);
+  }
+  CHECK_LE(tool.given_J - before_J, 0.0015);  // of one tick
 }
 
 TEST(Energy_ToolThatTurnsAfterAnUnpaidTick_IsResistedByItsWholeStep) {

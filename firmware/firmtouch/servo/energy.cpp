@@ -18,7 +18,8 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   energy.position_m = position_m;
   energy.stretch_m = stretch_m;
   energy.payable_m = stretch_m;
-  energy.is_unpaid = entered_m < 0.0f && given_J > available_J;
+  const bool is_out = !(stretch_m > 0.0f) && given_J > 0.0f;
+  energy.is_unpaid = (entered_m < 0.0f || is_out) && given_J > available_J;
   if (!(available_J < -kOverdraft_J))
     energy.overdrawn_ticks = 0;
   else if (energy.overdrawn_ticks < UINT16_MAX)
