@@ -105,6 +105,19 @@ TEST(Objects_MoveCommand_IsRefusedForAnUnknownObjectAndAnySpeedOutOfRange) {
   CHECK(!scene.move(0, 1, hand_m, record::kFlagModelApart));  // at two rates objects stand
 }
 
+TEST(Objects_OneThatStoppedAt10m_ReturnsByACommand) {
+  Touching scene({{"far", "box", {0, 0, 9.99f}, 1e30f, {0, 0, 1}}});
+  const math::Vec3 hand_m{0, 0, 0.1f};
+  const auto at_m = [&] { return scene.controller.objects().object(0).pose.translation_m.z; };
+  CHECK(scene.move(0, 1, hand_m));
+  scene.stay(100);
+  CHECK_GE(at_m(), 9.998f);
+  CHECK_LE(at_m(), 10.0f);
+  CHECK(scene.move(0, -1, hand_m));
+  scene.stay(99);
+  CHECK_LE(std::fabs(wide(at_m()) - 9.9), 0.002);
+}
+
 TEST(Objects_Friction_IsTheLargerOfObjectAndParameter) {
   Touching rough({{"box", "box", {}, 1e30f, {}, 0.5f}});
   rough.set(params::kFrictionStatic, 0.2f);

@@ -93,6 +93,7 @@ bool MeshObjects::take_command(uint32_t command, float speed) {
   if (command < record::kCommandMoveObject || i >= stored_.size()) return false;
   if (!(speed >= -1.0f && speed <= 1.0f)) return false;
   speed_[i] = speed;
+  object_[i].twist = scene::object_of(stored_[i]).twist;  // one that stopped at 10 m has none
   return true;
 }
 
