@@ -78,8 +78,8 @@ class Controller {
   uint32_t next_crc() const { return scenes_.next().loaders.container().crc(); }
   /// Whether a tick with record::kCommandSwapAsset will take it. That tick touches the next asset:
   /// contact begins anew, force and parameters go on, so the force makes no step above its slew
-  /// limit. It is refused while the next asset is not proven, if it stores another linkage, and at
-  /// two rates.
+  /// limit, except to fall where contact's energy does not pay for it. It is refused while the next
+  /// asset is not proven, if it stores another linkage, and at two rates.
   bool can_swap() const { return scenes_.can_swap(); }
   /// The same at once. Not while tick() may interrupt.
   bool swap() { return scenes_.swap(); }
