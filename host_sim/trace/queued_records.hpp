@@ -13,10 +13,14 @@ class QueuedRecords : public log::Records {
   QueuedRecords(uint32_t record_bytes, uint32_t capacity)
       : record_bytes_(record_bytes), capacity_(capacity), bytes_(size_t{record_bytes} * capacity) {}
 
-  /// Appends a record; if the queue is full, drops and counts it.
+  /// Appends a record; if the queue is full, drops and counts it. Leaves out one whose number is
+  /// not above the last, as of a frame that came twice or late: no log may hold it.
   void push(const uint8_t* record) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    number_ = log::word(record, 0) + 1;
+    const uint32_t number = log::word(record, 0);
+    const bool is_first = kept_ == 0 && dropped_ == 0;
+    if (!is_first && static_cast<int32_t>(number - number_) < 0) return;
+    number_ = number + 1;
     if (kept_ - taken_ == capacity_) {
       ++dropped_;
       return;

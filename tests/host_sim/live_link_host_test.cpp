@@ -14,6 +14,7 @@
 #include "harness/test.hpp"
 #include "host_sim/controllers/asset_remedy.hpp"
 #include "host_sim/scenario/scenario.hpp"
+#include "host_sim/trace/queued_records.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -144,6 +145,19 @@ TEST(LiveLink_SecondAnswerToARepeatedRequest_IsNoneToTheNext) {
   shutdown(ends[1], SHUT_RDWR);
   controller.join();
   close(ends[1]);
+}
+
+// A log with a number that is not above the one before cannot be read.
+TEST(QueuedRecords_DoubledOrLateRecord_IsLeftOut) {
+  QueuedRecords records(4, 8);
+  const uint8_t numbers[] = {7, 8, 8, 10, 9, 11};
+  for (const uint8_t number : numbers) {
+    const uint8_t record[] = {number, 0, 0, 0};
+    records.push(record);
+  }
+  CHECK_EQ(records.waiting(), 4u);
+  CHECK_EQ(records.produced(), 12u);
+  CHECK_EQ(log::word(records.ready().data(), 8), 10u);
 }
 
 }  // namespace firmtouch::host_sim
