@@ -9,7 +9,7 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kTurn_rad = 6.283185307179586, kStep_s = 1e-5, kMaxTime_s = 60;
+constexpr double kTurn_rad = 6.283185307179586, kStep_s = 1e-5;
 constexpr double kHeld_kg_m2 = 100;  // the rotor of a joint that stays where it is
 constexpr uint32_t kSettling = 40, kPeriods = 20;
 
@@ -27,7 +27,8 @@ LinkageDevice bare(LinkageDevice device, bool has_gap) {
 // Times of upward zero crossings, and the extremes between them.
 class Oscillation {
  public:
-  // Result: whether kPeriods periods after the settling ones are over.
+  explicit Oscillation(double expected_Hz) : most_s_(2 * (kSettling + kPeriods) / expected_Hz) {}
+  // Result: whether kPeriods periods after the settling ones are over, or twice the time for them.
   bool add(double value) {
     if (crossings_ > kSettling) most_ = std::max(most_, value), least_ = std::min(least_, value);
     if (before_ < 0 && value >= 0) {
@@ -38,7 +39,7 @@ class Oscillation {
     }
     before_ = value;
     now_s_ += kStep_s;
-    return crossings_ > kSettling + kPeriods || now_s_ > kMaxTime_s;
+    return crossings_ > kSettling + kPeriods || !(now_s_ < most_s_);
   }
   double frequency_Hz() const {
     return crossings_ > kSettling + kPeriods ? kPeriods / (last_s_ - first_s_) : 0;
@@ -46,6 +47,7 @@ class Oscillation {
   double amplitude() const { return 0.5 * (most_ - least_); }
 
  private:
+  const double most_s_;
   double before_ = 0, now_s_ = 0, first_s_ = 0, last_s_ = 0;
   double most_ = 0, least_ = 0;
   uint32_t crossings_ = 0;
@@ -73,14 +75,15 @@ Predicted resonance(const LinkageDevice& of) {
   const tools::Directions modes = tools::directions_of(square);
   const std::vector<double>& first = modes.way[n - 1];
   for (size_t i = 0; i < n; ++i) linkage.set_twist(sprung[i], 1e-4 * first[i] / root[i]);
-  Oscillation oscillation;
+  const double expected_Hz = std::sqrt(modes.value[n - 1]) / kTurn_rad;
+  Oscillation oscillation(expected_Hz);
   double mode = 0;
   do {
     linkage.advance({}, {}, kStep_s);
     mode = 0;
     for (size_t i = 0; i < n; ++i) mode += first[i] * root[i] * linkage.twist_rad(sprung[i]);
   } while (!oscillation.add(mode));
-  return {oscillation.frequency_Hz(), std::sqrt(modes.value[n - 1]) / kTurn_rad};
+  return {oscillation.frequency_Hz(), expected_Hz};
 }
 
 // Share of a cable's stiffness that a gap leaves to a twist of `excess` times its half: the
@@ -108,7 +111,7 @@ void add_cycle(const LinkageDevice& of, uint32_t joint, TransmissionCheck& to) {
       std::sqrt(stiffness * linkage.body().inverse_inertia(joint, joint)) / kTurn_rad;
   const double damping = std::sqrt(stiffness * drive.rotor_kg_m2);
   linkage.set_twist(joint, 3 * half_rad);
-  Oscillation oscillation;
+  Oscillation oscillation(to.cycle_Hz.closed_form);
   double off_rad = 0;
   do {
     double motor_Nm[kJoints] = {};
