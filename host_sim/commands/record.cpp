@@ -111,7 +111,7 @@ struct Recording {
   void take(const link::Frame& frame) {
     link::Ack ack;
     if (frame.type == link::kLog && frame.payload.size() == 4 + records.record_bytes()) {
-      records.push(frame.payload.data() + 4);
+      if (!records.push(frame.payload.data() + 4)) return;
       last = log::word(frame.payload.data() + 4, 0);
       if (received++ == 0) first = last;
     } else if (frame.type == link::kAck && link::take(frame, ack) && answered < sent) {

@@ -13,21 +13,23 @@ class QueuedRecords : public log::Records {
   QueuedRecords(uint32_t record_bytes, uint32_t capacity)
       : record_bytes_(record_bytes), capacity_(capacity), bytes_(size_t{record_bytes} * capacity) {}
 
-  /// Appends a record; if the queue is full, drops and counts it. Leaves out one whose number is
-  /// not above the last, as of a frame that came twice or late: no log may hold it.
-  void push(const uint8_t* record) {
+  /// Appends a record; if the queue is full, drops and counts it.
+  /// Result: false, and it is left out, if its number is not above the last, as of a frame that
+  ///         came twice or late: no log may hold it.
+  bool push(const uint8_t* record) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const uint32_t number = log::word(record, 0);
     const bool is_first = kept_ == 0 && dropped_ == 0;
-    if (!is_first && static_cast<int32_t>(number - number_) < 0) return;
+    if (!is_first && static_cast<int32_t>(number - number_) < 0) return false;
     number_ = number + 1;
     if (kept_ - taken_ == capacity_) {
       ++dropped_;
-      return;
+      return true;
     }
     uint8_t* slot = bytes_.data() + size_t{kept_ % capacity_} * record_bytes_;
     for (uint32_t i = 0; i < record_bytes_; ++i) slot[i] = record[i];
     ++kept_;
+    return true;
   }
   uint32_t record_bytes() const { return record_bytes_; }
 
