@@ -46,6 +46,11 @@ struct Tool {
     force_N = output.force_N.z;
     return output;
   }
+  // Into the wall from outside.
+  void press(int ticks) {
+    at(0.0001f);
+    for (int i = 0; i < ticks; ++i) at(-0.0016f);
+  }
   servo::Settings limits;
   servo::State state;
   double given_J = 0;
@@ -72,8 +77,7 @@ double given_by_sine_J(float reservoir_J, uint32_t ticks, float period_ticks) {
 TEST(Energy_ToolThatLeft_IsPushedNoMore) {
   Tool tool(kReservoir_J);
   tool.limits.slew_limit_N_per_s = 5000;
-  tool.at(0.0001f);
-  for (int tick = 0; tick < 4; ++tick) tool.at(-0.0016f);
+  tool.press(4);
   CHECK_GE(tool.force_N, 7.9f);
   CHECK_LE(tool.at(0.0001f).force_N.z, 0.0f);
 }
@@ -82,8 +86,7 @@ TEST(Energy_ToolThatLeft_IsPushedNoMore) {
 TEST(Energy_ToolThatAllButLeft_IsPushedByItsSpringAlone) {
   Tool tool(0.0135f);  // what it gives in the last tick, and 0.8 mJ
   tool.limits.slew_limit_N_per_s = 5000;
-  tool.at(0.0001f);
-  for (int tick = 0; tick < 4; ++tick) tool.at(-0.0016f);
+  tool.press(4);
   CHECK_LE(tool.at(-0.00001f).force_N.z, kStiffness_N_per_m * 0.0000101f);
 }
 
@@ -92,8 +95,7 @@ TEST(Energy_ToolThatAllButLeft_IsPushedByItsSpringAlone) {
 TEST(Energy_WallThatWentAway_PushesNoMore) {
   Tool tool(kReservoir_J);
   tool.limits.slew_limit_N_per_s = 1000;
-  tool.at(0.0001f);
-  for (int tick = 0; tick < 20; ++tick) tool.at(-0.0016f);
+  tool.press(20);
   CHECK_GE(tool.force_N, 7.9f);
   const double before_J = tool.given_J;
   CHECK_GE(tool.at(-0.0016f, false).force_N.z, 6.9f);  // by its slew limit
@@ -107,8 +109,7 @@ TEST(Energy_WallThatWentAway_PushesNoMore) {
 TEST(Energy_ToolThatTurnsAfterAnUnpaidTick_IsResistedByItsWholeStep) {
   Tool tool(0.0129f);  // what it gives in the tick before it turns, and 0.18 mJ
   tool.limits.slew_limit_N_per_s = 5000;
-  tool.at(0.0001f);
-  for (int tick = 0; tick < 4; ++tick) tool.at(-0.0016f);
+  tool.press(4);
   tool.at(-0.00001f);
   CHECK_GE(tool.at(-0.0003f).force_N.z, kStiffness_N_per_m * 0.0002999f);
 }

@@ -66,7 +66,7 @@ struct Head {
   // Grid coordinate 0; the grid covers twice the extent about the box's centre.
   float grid_low_m[3];
   float cell_m;          // a power of two, so that metres to cells rounds only once
-  float longest_edge_m;  // of all triangles, as float32 computes it
+  float longest_edge_m;  // at least that of all triangles in float32
   // By how much importing it to float32 and turning slivers may have moved the surface; at most
   // kMaxRounding diagonals.
   float rounding_m;
