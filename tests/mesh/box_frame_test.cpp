@@ -78,14 +78,6 @@ TEST(R127TurnedBoxWithoutSlack) {
   CHECK_EQ(turned.refusal(), 127'000u);
 }
 
-TEST(R136BoxFrameBesideLeafBoxes) {
-  const TurnedCube turned;
-  static const uint32_t words[mesh::kLeafBoxStride * Cube::kTriangles + mesh::kLeafBoxesEnd] = {};
-  mesh::Sections s = turned.sections();
-  s.leaf_boxes = {static_cast<const uint8_t*>(static_cast<const void*>(words)), sizeof words};
-  CHECK_EQ(refusal_of(s), 136'002u);
-}
-
 // Against the same in double: the bound of box_frame.hpp, reached to a third or more.
 TEST(Turned_ErrsByFourRoundingsAtMost) {
   test::Xorshift random(5);

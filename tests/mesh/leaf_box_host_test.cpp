@@ -12,6 +12,7 @@
 #include "firmtouch/mesh/closest_point.hpp"
 #include "firmtouch/mesh/grid.hpp"
 #include "harness/test.hpp"
+#include "surface/make/make_cad.hpp"
 #include "surface/make/make_part.hpp"
 #include "surface/random.hpp"
 #include "true_distance.hpp"
@@ -72,7 +73,7 @@ Reported query_leaves(const BakedMesh& baked, uint32_t every) {
                        static_cast<float>(middle.y + random.between(-reach, reach)),
                        static_cast<float>(middle.z + random.between(-reach, reach))};
         mesh::NearBound bound;
-        if (!bound.begin(view.head(), p_m)) continue;
+        if (!bound.begin(view.head(), mesh::in_box_frame(view, p_m))) continue;
         double truth = DBL_MAX;
         for (uint32_t t = first; t < first + count; ++t)
           truth = std::min(
@@ -114,11 +115,16 @@ TEST(LeafBoxBound_IsAtMostTheTrueDistance) {
   const Reported of_large = query_leaves(large, 1);
   CHECK_LT(0u, of_large.leaves);
   CHECK_EQ(of_large.beyond, 0u);
+  for (uint64_t seed = tools::kCadKinds; seed < 2 * tools::kCadKinds; ++seed) {
+    const BakedMesh askew(tools::to_surface(tools::make_cad(seed)), bounded());
+    CHECK(askew.view.box_frame() != nullptr);
+    CHECK_EQ(query_leaves(askew, 1).beyond, 0u);
+  }
 }
 
 // Without a band all of it; with one what is nearer, and beyond it the lower bound.
-TEST(LeafBoxes_ChangeNoAnswer) {
-  const BakedMesh baked(tools::make_part(5, 3000), bounded());
+// Result: how many answers of a band were beyond it.
+static uint32_t beyond_where_boxes_change_nothing(const BakedMesh& baked) {
   mesh::Sections parts = baked.parts();
   CHECK(!parts.leaf_boxes.empty());
   parts.leaf_boxes = parts.shapes = {};
@@ -146,7 +152,15 @@ TEST(LeafBoxes_ChangeNoAnswer) {
     if (a.certificate.exact ? !same(a, b) : a.certificate.lower_m < b.certificate.lower_m) ++differ;
   }
   CHECK_EQ(differ, 0u);
-  CHECK_LT(100u, beyond);
+  return beyond;
+}
+
+TEST(LeafBoxes_ChangeNoAnswer) {
+  const BakedMesh part(tools::make_part(5, 3000), bounded());
+  CHECK_LT(100u, beyond_where_boxes_change_nothing(part));
+  const BakedMesh askew(tools::to_surface(tools::make_cad(tools::kCadKinds)), bounded());
+  CHECK(askew.view.box_frame() != nullptr);
+  CHECK_LT(100u, beyond_where_boxes_change_nothing(askew));
 }
 
 TEST(R137WordsBesideTheBoxes) {

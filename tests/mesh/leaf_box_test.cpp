@@ -90,7 +90,8 @@ struct BoxedCube {
         const float per_cell = 1.0f / cube.head.cell_m;
         if (!found.holds({(v.x_m - cube.head.grid_low_m[0]) * per_cell,
                           (v.y_m - cube.head.grid_low_m[1]) * per_cell,
-                          (v.z_m - cube.head.grid_low_m[2]) * per_cell}))
+                          (v.z_m - cube.head.grid_low_m[2]) * per_cell},
+                         mesh::kOff))
           return false;
       }
     return true;
@@ -186,6 +187,32 @@ TEST(R138TwoAxesThatAreOne) {
     for (uint32_t i = 0; i < 3; ++i)
       cube.set_axis(leaf, 1, i, mesh::LeafBox(cube.box(leaf)).axis[0][i]);
     CHECK_EQ(refusal_of(cube.sections()), 138'000u + 2 * leaf);
+  }
+}
+
+// A side that is `cells` farther out or in than the middle of its box, which is one cell long
+// across it. All other boxes are as long as they may be.
+static uint32_t refusal_of_turned(uint32_t leaf, float cells) {
+  BoxedCube cube;
+  for (uint32_t other = 0; other < kLeaves; ++other) {
+    cube.box(other)[0] = 0xFFFFFFFFu;
+    if (other != leaf) cube.box(other)[1] = 0xFFFFFFFFu;
+  }
+  constexpr float kShorter = 0.75f * 0x1p-15f;
+  mesh::BoxFrame frame{};
+  for (uint32_t k = 0; k < 3; ++k) frame.axis[k][k] = 1.0f - kShorter;
+  const float side_m = leaf % 2 == 0 ? -1.0f : 1.0f;
+  frame.centre_m[leaf / 2] = cells * cube.cube.head.cell_m - side_m * kShorter;
+  mesh::Sections s = cube.sections();
+  s.box_frame = {reinterpret_cast<const uint8_t*>(&frame), sizeof frame};
+  return refusal_of(s);
+}
+
+// Half of a cell and 0.041 are needed along the axes, 2^-6 more where they are turned.
+TEST(R139TurnedBoxNeedsMoreRoom) {
+  for (uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
+    CHECK_EQ(refusal_of_turned(leaf, 0.435f), 0u);
+    CHECK_EQ(refusal_of_turned(leaf, 0.45f) / 1000, 139u);
   }
 }
 

@@ -214,8 +214,8 @@ enum Rule : uint16_t {
   kRuleFold = 130,
   // Edge 0 of a triangle is longer than the head's longest_edge_m.
   kRuleEdgeAboveLongest = 131,
-  // The leaf boxes are not 16 bytes a triangle and 32 (0), the last eight words are not those
-  // of no box (1), or there is a box frame, too (2).
+  // The leaf boxes are not 16 bytes a triangle and 32 (0), or the last eight words are not those of
+  // no box (1).
   kRuleLeafBoxesSize = 136,
   // The words after a leaf's box, or instead of one, are not as they must be.
   kRuleLeafBoxWords = 137,

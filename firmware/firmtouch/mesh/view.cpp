@@ -59,6 +59,11 @@ bool excludes_nothing(const uint32_t* words) {
 
 Vec3 position_of(const Vertex& v) { return {v.x_m, v.y_m, v.z_m}; }
 
+// The n-th corner of all triangles, where the grid has it.
+[[gnu::noinline]] Vec3 on_grid(const View& mesh, uint32_t n) {
+  return in_box_frame(mesh, mesh.vertex(corner_at(mesh, n)));
+}
+
 // Whether a triangle is thinner than 1e-10 of its longest edge, or lower than 1e-18 m.
 // Pre: ab is its longest edge, of 1e-12 m at least.
 bool is_thin_measured(Vec3 ab, Vec3 ac, float ab2) {
@@ -173,7 +178,6 @@ Verdict Proof::take(const Sections& s) {
 
 // The box that a search reads behind the last leaf's excludes nothing.
 Verdict Proof::take_bounded(const Sections& s) {
-  if (!s.leaf_boxes.empty() && view.box_frame_ != nullptr) return reject(kRuleLeafBoxesSize, 2);
   if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(kRuleShapesSize, 0);
   const uint32_t triangles = view.triangles16_.size() + view.triangles32_.size();
   const uint32_t words = kLeafBoxStride * triangles;
@@ -256,10 +260,10 @@ Verdict Proof::finish_nodes() {
   if (is_thin(ab, ac, ab2)) return kRuleThinTriangle;
   if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c)) return kRuleShape;
   Vec3 at_a_m = position_of(a), at_b_m = position_of(b), at_c_m = position_of(c);
-  if (const BoxFrame* const frame = view.box_frame_) {
-    at_a_m = turned(*frame, at_a_m);
-    at_b_m = turned(*frame, at_b_m);
-    at_c_m = turned(*frame, at_c_m);
+  if (view.box_frame_ != nullptr) {
+    at_a_m = on_grid(view, 3 * i);
+    at_b_m = on_grid(view, 3 * i + 1);
+    at_c_m = on_grid(view, 3 * i + 2);
   }
   seen.take(at_a_m.x, at_a_m.y, at_a_m.z);
   seen.take(at_b_m.x, at_b_m.y, at_b_m.z);
@@ -340,8 +344,9 @@ Verdict Proof::check_leaf_box(uint32_t first, uint32_t count) const {
   const Head& head = *view.head_;
   const float per_cell = 1.0f / head.cell_m;
   const Vec3 low_m{head.grid_low_m[0], head.grid_low_m[1], head.grid_low_m[2]};
+  const float off = view.box_frame_ != nullptr ? kOffTurned : kOff;
   for (uint32_t n = 3 * first; n < 3 * (first + count); ++n)
-    if (!box.holds((view.vertex(corner_at(view, n)) - low_m) * per_cell))
+    if (!box.holds((on_grid(view, n) - low_m) * per_cell, off))
       return reject(kRuleTriangleOutsideLeafBox, n / 3);
   return kPassed;
 }

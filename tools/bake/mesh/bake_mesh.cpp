@@ -199,9 +199,7 @@ std::vector<Section> bake_mesh_so(const Surface& given, const std::string& name,
   }
   Surface input = given;
   longest_edge_first(input);
-  std::optional<Frame> turned;
-  // Leaf boxes have frames of their own.
-  if (!options.shape.has_boxes_and_shapes) turned = best_box_frame(input);
+  const std::optional<Frame> turned = best_box_frame(input);
   if (options.max_growth > 0)
     report.refined =
         refine(input, max_move_m(input) / 2, options.max_growth, turned.value_or(Frame{}));
@@ -247,8 +245,9 @@ std::vector<Section> bake_mesh_so(const Surface& given, const std::string& name,
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
   if (boxes.frame) sections.push_back(make_section(mesh::kBoxFrameSection, name, &*boxes.frame, 1));
   if (options.shape.has_boxes_and_shapes) {
+    const Surface framed = boxes.frame ? in_box_frame(surface, *boxes.frame) : surface;
     sections.push_back(
-        make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(surface, grid, tree)));
+        make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(framed, grid, tree)));
     sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
   }
   for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
