@@ -46,6 +46,7 @@ link::HelloReply describe() {
 
 void HostSession::poll() {
   uint8_t bytes[64];
+  link::Frame frame;
   // Replies are sent before requests are read: a host that does not read waits, and nothing is
   // lost.
   while (outbox_.has_room_to_stream()) {
@@ -53,7 +54,6 @@ void HostSession::poll() {
     if (count == 0) break;
     for (uint32_t i = 0; i < count; ++i) {
       decoder_.push(bytes[i]);
-      link::Frame frame;
       while (decoder_.next(frame)) handle(frame);
     }
     outbox_.flush();

@@ -25,6 +25,7 @@ bool Decoder::push(uint8_t byte) {
 bool Decoder::next(Frame& frame) {
   drop(returned_);
   returned_ = 0;
+  if (count_ < expected_) return false;
   for (;;) {
     // Skips to the next byte that may start a frame.
     uint32_t start = 0;
@@ -33,8 +34,10 @@ bool Decoder::next(Frame& frame) {
     drop(start);
 
     uint32_t frame_bytes = 0;
+    expected_ = 0;
     switch (match(frame_bytes)) {
       case Match::kIncomplete:
+        expected_ = frame_bytes;
         return false;
       case Match::kNone:
         if (count_ > 1 && bytes_[1] == kSyncSecond) ++rejects_;
@@ -52,7 +55,8 @@ bool Decoder::next(Frame& frame) {
   }
 }
 
-// Whether a frame starts at the first byte. Never kIncomplete with a full buffer.
+// Whether a frame starts at the first byte, and how long it is if its header is there. Never
+// kIncomplete with a full buffer.
 Decoder::Match Decoder::match(uint32_t& frame_bytes) const {
   if (count_ > 0 && bytes_[0] != kSyncFirst) return Match::kNone;
   if (count_ > 1 && bytes_[1] != kSyncSecond) return Match::kNone;
@@ -61,9 +65,9 @@ Decoder::Match Decoder::match(uint32_t& frame_bytes) const {
   const uint32_t payload_bytes = get_u16(bytes_ + 4);
   if (payload_bytes > kMaxPayloadBytes) return Match::kNone;
   const uint32_t body = kHeaderBytes + payload_bytes;
-  if (count_ < body + kCrcBytes) return Match::kIncomplete;
-  if (core::crc32({bytes_, body}) != get_u32(bytes_ + body)) return Match::kNone;
   frame_bytes = body + kCrcBytes;
+  if (count_ < frame_bytes) return Match::kIncomplete;
+  if (core::crc32({bytes_, body}) != get_u32(bytes_ + body)) return Match::kNone;
   return Match::kComplete;
 }
 

@@ -22,9 +22,9 @@ class Decoder {
   bool push(uint8_t byte);
 
   /// The next complete frame; valid until the next call of either function.
-  /// Bounds: one CRC a frame in an undamaged stream; in the worst case kMaxFrameBytes / 2
-  /// candidates with one CRC and one move of kMaxFrameBytes each. Result: false if more bytes are
-  /// needed.
+  /// Bounds: one CRC a frame and one of its header in an undamaged stream; in the worst case
+  /// kMaxFrameBytes / 2 candidates with one CRC and one move of kMaxFrameBytes each. Result: false
+  /// if more bytes are needed.
   bool next(Frame& frame);
 
   uint32_t frames() const { return frames_; }
@@ -43,6 +43,8 @@ class Decoder {
   uint32_t count_ = 0;
   // Bytes of the frame that the last next() returned; dropped at the following call.
   uint32_t returned_ = 0;
+  // Bytes of the frame that starts at the first byte, once its header is there; else 0.
+  uint32_t expected_ = 0;
   uint32_t frames_ = 0;
   uint32_t rejects_ = 0;
   uint32_t skipped_bytes_ = 0;
