@@ -91,7 +91,7 @@ struct BoxedCube {
         if (!found.holds({(v.x_m - cube.head.grid_low_m[0]) * per_cell,
                           (v.y_m - cube.head.grid_low_m[1]) * per_cell,
                           (v.z_m - cube.head.grid_low_m[2]) * per_cell},
-                         mesh::kOff))
+                         mesh::kErrorHalfCells))
           return false;
       }
     return true;

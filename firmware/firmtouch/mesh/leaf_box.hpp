@@ -7,10 +7,10 @@
 
 namespace firmtouch::mesh {
 
-/// By how much query and corner are off on each axis together, in half cells: 1.012 for the query's
-/// rounding, the rest for holds(); where they are turned, what that rounds of both, too.
-constexpr float kOff = 1.02f;
-constexpr float kOffTurned = kOff + 2.0f * kTurnedSlackCells;
+/// Of query and corner together on each axis: 1.012 for the query's rounding, the rest for holds();
+/// where they are turned, what that rounds of both, too.
+constexpr float kErrorHalfCells = 1.02f;
+constexpr float kTurnedErrorHalfCells = kErrorHalfCells + 2.0f * kTurnedSlackCells;
 
 /// An oriented box as tools/FORMAT.md (0x100E) has it: with c the centre, in half cells less 2^15,
 /// and a each axis, every x of the leaf has |a . (x - c)| <= half 2^16.
@@ -68,9 +68,9 @@ struct LeafBox {
   }
 
   /// Whether it holds a corner at these coordinates in cells, each within 2^-9 of the true one, and
-  /// the query's error with it. `off`: kOff, or kOffTurned. This computation loses less than the
+  /// the query's error with it. `error`: one of the above. This computation loses less than the
   /// 2^11 that are added to the bound: each x - c 0.006 half cells, and the sums 2^10.
-  bool holds(math::Vec3 cells, float off) const {
+  bool holds(math::Vec3 cells, float error) const {
     const float at[3] = {cells.x, cells.y, cells.z};
     float from_centre[3];
     for (int k = 0; k < 3; ++k) {
@@ -84,7 +84,7 @@ struct LeafBox {
         along += a * from_centre[i];
         lengths += __builtin_fabsf(a);
       }
-      if (!(__builtin_fabsf(along) + off * lengths + 0x1p11f <=
+      if (!(__builtin_fabsf(along) + error * lengths + 0x1p11f <=
             0x1p16f * static_cast<float>(half[k])))
         return false;
     }

@@ -344,9 +344,9 @@ Verdict Proof::check_leaf_box(uint32_t first, uint32_t count) const {
   const Head& head = *view.head_;
   const float per_cell = 1.0f / head.cell_m;
   const Vec3 low_m{head.grid_low_m[0], head.grid_low_m[1], head.grid_low_m[2]};
-  const float off = view.box_frame_ != nullptr ? kOffTurned : kOff;
+  const float error = view.box_frame_ != nullptr ? kTurnedErrorHalfCells : kErrorHalfCells;
   for (uint32_t n = 3 * first; n < 3 * (first + count); ++n)
-    if (!box.holds((on_grid(view, n) - low_m) * per_cell, off))
+    if (!box.holds((on_grid(view, n) - low_m) * per_cell, error))
       return reject(kRuleTriangleOutsideLeafBox, n / 3);
   return kPassed;
 }

@@ -95,21 +95,21 @@ uint32_t pair_of(double low, double high) {
 
 // Half the length along an axis, in cells, with the margins that open() requires and 0.02 more.
 double half_length(const Rounded& axis, const Rounded& centre, const std::vector<Point>& corners,
-                   float off) {
+                   float error) {
   double most = 0;
   for (const Point& p : corners)
     most = std::max(most, std::fabs(axis.x * (p.x - centre.x) + axis.y * (p.y - centre.y) +
                                     axis.z * (p.z - centre.z)));
   const double lengths = std::fabs(axis.x) + std::fabs(axis.y) + std::fabs(axis.z);
-  return std::ceil((most + double{off} * lengths) / 65536 + 0x1p-5 + 0.03);
+  return std::ceil((most + double{error} * lengths) / 65536 + 0x1p-5 + 0.03);
 }
 
-void put(const Candidate& box, const std::vector<Point>& corners, float off, uint32_t* words) {
+void put(const Candidate& box, const std::vector<Point>& corners, float error, uint32_t* words) {
   const Rounded centre(box.centre, 1);
   const std::array<Rounded, 3> axis{Rounded(box.axis[0], kAxisLength),
                                     Rounded(box.axis[1], kAxisLength),
                                     Rounded(box.axis[2], kAxisLength)};
-  const auto half = [&](size_t k) { return half_length(axis[k], centre, corners, off); };
+  const auto half = [&](size_t k) { return half_length(axis[k], centre, corners, error); };
   words[0] = pair_of(half(0), half(1));
   words[1] = pair_of(0xFFFF, half(2));
   words[2] = pair_of(centre.x, centre.y);
@@ -137,7 +137,7 @@ std::vector<uint32_t> make_leaf_boxes(const Surface& surface, const Grid& grid,
   const size_t end = surface.faces.size() * mesh::kLeafBoxStride;
   std::vector<uint32_t> words(end + mesh::kLeafBoxesEnd);
   words[end] = words[end + 1] = mesh::kNoLeafBox;
-  const float off = grid.slack_cells > 0 ? mesh::kOffTurned : mesh::kOff;
+  const float error = grid.slack_cells > 0 ? mesh::kTurnedErrorHalfCells : mesh::kErrorHalfCells;
   for (const mesh::Node& node : tree.nodes)
     for (const mesh::Side& side : node.side) {
       if (!mesh::is_leaf(side.child)) continue;
@@ -146,7 +146,7 @@ std::vector<uint32_t> make_leaf_boxes(const Surface& surface, const Grid& grid,
       if (count == 1) leaf[0] = leaf[1] = mesh::kNoLeafBox;
       if (count < 2) continue;
       const std::vector<Point> corners = corners_of(surface, grid, first, count);
-      put(smallest_box(corners), corners, off, leaf);
+      put(smallest_box(corners), corners, error, leaf);
     }
   return words;
 }
