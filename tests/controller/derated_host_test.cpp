@@ -178,6 +178,18 @@ TEST(DeratedDevice_RightAfterAReset_HasTheContinuousTorque) {
   for (const float heat : rig.controller.device().heat().heat) CHECK_EQ(heat, 1.0f);
 }
 
+// Else the energy of the tick behind a swap is counted as if the motors had given all of the force.
+TEST(AnyDevice_ThatContinues_KnowsWhatTheMotorsRendered) {
+  Rig<> rig(pushing());
+  for (int i = 0; i < 300; ++i) rig.tick(true, true);
+  const Rendered& rendered = rig.controller.device().rendered();
+  CHECK(rendered.share > 0.0f && rendered.share < 1.0f);
+  DeratedDevice<AnyDevice> next;
+  next.continue_as(rig.controller.device());
+  CHECK_EQ(next.rendered().share, rendered.share);
+  CHECK_EQ(next.rendered().hidden_J2, rendered.hidden_J2);
+}
+
 // It goes on cold, and so does the guard.
 TEST(DeratedDevice_BehindASwapOfTheAsset_HasItsHeat) {
   using Device = DeratedDevice<AnyDevice>;

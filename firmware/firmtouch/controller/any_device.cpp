@@ -51,6 +51,7 @@ void AnyDevice::continue_as(const AnyDevice& other) {
     weight_Nm_[k] = other.weight_Nm_[k];
   }
   carried_ = other.carried_;
+  rendered_ = other.rendered_;
   fast_ticks_ = other.fast_ticks_;
 }
 
