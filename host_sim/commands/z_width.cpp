@@ -233,6 +233,9 @@ int print_device_walls(const cli::Arguments& options, SampledWall wall) {
 }
 
 int print_z_width(const cli::Arguments& options) {
+  for (const char* const table : {"--table", "--regimes", "--estimators"})
+    if (options.has(table) && options.words().size() > 1)
+      options.refuse(std::string(table) + " has axes of its own: give it alone");
   if (options.has("--table")) return print_table();
   if (options.has("--regimes")) return print_regimes();
   if (options.has("--estimators")) return print_estimators();
