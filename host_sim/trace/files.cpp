@@ -25,6 +25,9 @@ const std::string kStandardOutput = "-";
 }  // namespace
 
 std::string read_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_character_file(path, error))
+    throw Refused(path + ": is a device, which may have no end; name a file");
   std::ifstream in(path, std::ios::binary);
   std::ostringstream bytes;
   if (!in || std::filesystem::is_directory(path) || !(bytes << in.rdbuf()))

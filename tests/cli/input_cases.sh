@@ -228,6 +228,12 @@ ADeviceOrAPipeIsWrittenTo() {
   cmp -s box.fta read.fta || fail 'other bytes'
 }
 
+AnInputWithoutAnEndIsRefusedAtOnce() {
+  f info /dev/zero
+  exits 3
+  says '/dev/zero: is a device, which may have no end; name a file'
+}
+
 # Before any work: the model is not even read.
 AnOutputThatCannotBeIsRefusedAtOnce() {
   mkdir folder

@@ -97,6 +97,8 @@ LoadedFile load_stream(std::FILE* stream, size_t max_line_bytes) {
 LoadedFile load_file(const std::string& path, size_t max_line_bytes) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return {{}, "is a folder; name a file"};
+  if (std::filesystem::is_character_file(path, error))
+    return {{}, "is a device, which may have no end; name a file"};
   std::FILE* stream = std::fopen(path.c_str(), "rb");
   if (stream == nullptr) {
     return {{},
