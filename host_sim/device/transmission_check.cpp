@@ -9,7 +9,7 @@
 namespace firmtouch::host_sim {
 namespace {
 
-constexpr double kTurn_rad = 6.283185307179586, kStep_s = 1e-5;
+constexpr double kTurn_rad = 6.283185307179586, kStep_s = 1e-5, kMaxTime_s = 60;
 constexpr double kHeld_kg_m2 = 100;  // the rotor of a joint that stays where it is
 constexpr uint32_t kSettling = 40, kPeriods = 20;
 
@@ -27,8 +27,10 @@ LinkageDevice bare(LinkageDevice device, bool has_gap) {
 // Times of upward zero crossings, and the extremes between them.
 class Oscillation {
  public:
-  explicit Oscillation(double expected_Hz) : most_s_(2 * (kSettling + kPeriods) / expected_Hz) {}
-  // Result: whether kPeriods periods after the settling ones are over, or twice the time for them.
+  explicit Oscillation(double expected_Hz)
+      : most_s_(std::min(kMaxTime_s, 2 * (kSettling + kPeriods) / expected_Hz)) {}
+  // Result: whether kPeriods periods after the settling ones are over, or twice the time for them,
+  // or kMaxTime_s.
   bool add(double value) {
     if (crossings_ > kSettling) most_ = std::max(most_, value), least_ = std::min(least_, value);
     if (before_ < 0 && value >= 0) {

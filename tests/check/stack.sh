@@ -61,6 +61,11 @@ plant_too_much_stack() {
   chmod +x firmtouch-stack
   expect='64|more than|limit'
 }
+plant_program_linked_with_flto() {
+  only=mps2-an500
+  : >build/mps2-an500/bin/firmtouch_app.elf.ltrans0.ltrans.ci
+  expect='is linked with -flto'
+}
 plant_program_over_its_budget() {
   only=mps2-an500
   cp "$root/build/mps2-an500/bin/firmtouch_app_all_tool.elf" build/mps2-an500/bin/firmtouch_app.elf

@@ -7,8 +7,8 @@
 
 namespace firmtouch::mesh {
 
-/// Of query and corner together on each axis: 1.012 for the query's rounding, the rest for holds();
-/// where they are turned, what that rounds of both, too.
+/// Bound of the errors of query and corner together on each axis: 1.012 for the query's rounding,
+/// the rest for holds(). With boxes in a frame what turned() rounds of both is added.
 constexpr float kErrorHalfCells = 1.02f;
 constexpr float kTurnedErrorHalfCells = kErrorHalfCells + 2.0f * kTurnedSlackCells;
 
@@ -68,8 +68,9 @@ struct LeafBox {
   }
 
   /// Whether it holds a corner at these coordinates in cells, each within 2^-9 of the true one, and
-  /// the query's error with it. `error`: one of the above. This computation loses less than the
-  /// 2^11 that are added to the bound: each x - c 0.006 half cells, and the sums 2^10.
+  /// the query's error with it. `error`: kErrorHalfCells or kTurnedErrorHalfCells. This computation
+  /// loses less than the 2^11 that are added to the bound: each x - c 0.006 half cells, and the
+  /// sums 2^10.
   bool holds(math::Vec3 cells, float error) const {
     const float at[3] = {cells.x, cells.y, cells.z};
     float from_centre[3];
