@@ -88,6 +88,17 @@ TEST(Vibration_HeldForever_KeepsItsPhase) {
     CHECK_LE(fabs(double{scene::vibration_N(v, tick)} - expected_N(v, tick)), 1.5e-6);
 }
 
+TEST(Vibration_OverTheWrapOfTheTick_IsTheSame) {
+  const scene::Vibration from_zero = buzz();
+  const uint32_t all[] = {0, 900, 4294966100, 4294966296, 4294966800, 2147483648};
+  for (const uint32_t later : all) {
+    scene::Vibration v = from_zero;
+    v.start_tick += later;
+    for (uint32_t tick = 900; tick < 1700; ++tick)
+      CHECK_EQ(scene::vibration_N(v, tick + later), scene::vibration_N(from_zero, tick));
+  }
+}
+
 TEST(Vibration_HostileSettings_MakeNoForce) {
   const float hostile[] = {NAN, INFINITY, -INFINITY, -1, 0, FLT_MAX};
   for (const float value : hostile) {

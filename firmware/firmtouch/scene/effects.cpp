@@ -44,8 +44,10 @@ math::SineCosine half_angle(float notches) {
 }  // namespace
 
 float vibration_N(const Vibration& v, uint32_t tick) {
-  if (tick < v.start_tick || !is_above_0(v.amplitude_N, servo::kMaxDriveLimit_N)) return 0.0f;
+  if (!is_above_0(v.amplitude_N, servo::kMaxDriveLimit_N)) return 0.0f;
   if (!(v.cycles_a_tick > 0.0f && v.cycles_a_tick < 0.5f)) return 0.0f;
+  const bool is_endless = ((v.rise_ticks | v.hold_ticks | v.fall_ticks) >> 31) != 0;
+  if (is_endless && tick < v.start_tick) return 0.0f;
   const uint32_t passed = tick - v.start_tick;
   const uint32_t phase = passed * static_cast<uint32_t>(v.cycles_a_tick * 0x1p32f + 0.5f);
   constexpr float kTurn_rad = 6.28318531f;

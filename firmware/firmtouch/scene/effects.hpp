@@ -20,9 +20,9 @@ struct Vibration {
   uint32_t fall_ticks = 0;
 };
 
-/// Force along the direction. It is 0 before the start and after the end. The phase is counted in
-/// 2^-32 cycles, without a sum that rounds: at any time it is that of cycles_a_tick to 2^-33 a
-/// tick.
+/// Force along the direction. It is 0 before the start and after the end. The tick may wrap between
+/// them, unless rise, hold or fall is 2^31 ticks or more. The phase is counted in 2^-32 cycles,
+/// without a sum that rounds: at any time it is that of cycles_a_tick to 2^-33 a tick.
 /// Bounds: about 210 instructions. Error: 1e-6 of the amplitude.
 float vibration_N(const Vibration& vibration, uint32_t tick);
 
