@@ -7,12 +7,14 @@
 #include "bake/spline/bake_spline.hpp"
 #include "footpoint/footpoints.hpp"
 #include "harness/test.hpp"
+#include "spline/read_spline.hpp"
 #include "spline/sample_splines.hpp"
 #include "surface/random.hpp"
 
 namespace {
 
 using namespace firmtouch;
+using tools::FootKind;
 using tools::Footpoint;
 using tools::Footpoints;
 
@@ -72,6 +74,52 @@ TEST(BakedSurfacesHaveTheFootPointsOfTheirFile) {
     tools::SplineModel model;
     model.surfaces.push_back(tools::hilly_surface(seed, 5, 0.2, seed % 2 == 0));
     same_as_baked(model, {{}, tools::bezier_pieces(model.surfaces[0])}, seed);
+  }
+}
+
+// A pipe of radius 0.3 and length 0.5 about the z axis, of quarter circles.
+tools::SplineModel pipe() {
+  tools::SplineSurface s;
+  s.degree_u = 2, s.degree_v = 1;
+  s.count_u = 9, s.count_v = 2;
+  s.knots_u = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
+  s.knots_v = {0, 0, 1, 1};
+  s.u0 = s.v0 = 0;
+  s.u1 = 4, s.v1 = 1;
+  constexpr double kX[] = {1, 1, 0, -1, -1, -1, 0, 1, 1}, kY[] = {0, 1, 1, 1, 0, -1, -1, -1, 0};
+  for (const double z : {0.0, 0.5})
+    for (size_t k = 0; k < 9; ++k)
+      s.points.push_back({0.3 * kX[k], 0.3 * kY[k], z, k % 2 == 0 ? 1 : std::sqrt(0.5)});
+  tools::SplineModel model;
+  model.surfaces.push_back(s);
+  return model;
+}
+
+// Rounding of the coefficients puts a foot-point there beyond the end of either patch.
+TEST(NearACentreOfCurvature_TheNearestFootPointOnAJointIsFound) {
+  tools::SplineModel torus =
+      tools::read_spline_file(std::string(FIRMTOUCH_CAD_FILES) + "/torus.igs", 0);
+  const Baked tube(torus), open(pipe());
+  const Footpoints of_tube(tube.curves, tube.patches, tools::kAssetGap),
+      of_pipe(open.curves, open.patches, tools::kAssetGap);
+  CHECK(!of_pipe.borders().empty());
+  constexpr double kEighth = 0.78539816339744831;
+  for (const double off : {1e-4, 1e-5, 1e-6}) {
+    for (int turn = 0; turn < 8; ++turn) {
+      for (int roll = 0; roll < 8; ++roll) {
+        const double c = std::cos(kEighth * turn), s = std::sin(kEighth * turn);
+        const double ring = 0.05 + off * std::cos(kEighth * roll);
+        bool is_complete = false;
+        const Footpoint near =
+            of_tube.all({ring * c, ring * s, off * std::sin(kEighth * roll)}, is_complete).front();
+        CHECK_LE(std::fabs(near.distance_m - (0.02 - off)), 1e-7);
+        CHECK(near.kind == FootKind::kMin);
+        const double above = 0.1 * (roll - 1);  // beside the pipe, or beyond one of its ends
+        const Footpoint rim = of_pipe.all({off * c, off * s, above}, is_complete).front();
+        const double beyond = std::fmax(0, std::fmax(-above, above - 0.5));
+        CHECK_LE(std::fabs(rim.distance_m - std::hypot(0.3 - off, beyond)), 3e-7);
+      }
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include "footpoint/border.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "footpoint/curve_system.hpp"
 
@@ -83,7 +84,7 @@ Point leaving(const Border& border, bool at_end) {
 
 void find_borders(const std::vector<BezierPatch>& patches, double gap, double extent_m,
                   std::vector<Border>& borders, std::vector<Corner>& corners,
-                  std::vector<std::array<Neighbour, 4>>& neighbours) {
+                  std::vector<Joint>& joints, std::vector<std::array<Neighbour, 4>>& neighbours) {
   neighbours.assign(patches.size(), {});
   const double tolerance = (kSame + gap) * extent_m, sine = kSmooth + 1000 * gap;
   const auto add_corner = [&](const Corner& c) {
@@ -120,10 +121,13 @@ void find_borders(const std::vector<BezierPatch>& patches, double gap, double ex
       neighbour = {edges[b].border.patch, edges[b].border.side, turned};
     }
     const Border& border = edges[a].border;
-    if (others != 1 || !goes_on)
+    if (others != 1 || !goes_on) {
       borders.push_back(border);
-    else
-      neighbours[border.patch][static_cast<size_t>(border.side)] = neighbour;
+      continue;
+    }
+    neighbours[border.patch][static_cast<size_t>(border.side)] = neighbour;
+    if (std::pair(border.patch, border.side) < std::pair(neighbour.patch, neighbour.side))
+      joints.push_back({border, neighbour});
   }
   for (const Border& border : borders) {
     for (const bool at_end : {false, true}) {

@@ -28,11 +28,17 @@ struct Corner {
   double u, v;
 };
 
-/// The edges of patches over which no other patch goes on smoothly, and the corners where they end
-/// or turn, edges that are a single point among them. `gap`: as of Footpoints. `neighbours`: over
-/// each side of each patch.
+/// An edge over which another patch goes on smoothly.
+struct Joint {
+  Border border;
+  Neighbour over;
+};
+
+/// `borders`: the edges of patches over which no other patch goes on smoothly; `corners`: where
+/// they end or turn, edges that are a single point among them. `joints`: the other edges, each
+/// once. `neighbours`: over each side of each patch. `gap`: as of Footpoints.
 void find_borders(const std::vector<BezierPatch>& patches, double gap, double extent_m,
                   std::vector<Border>& borders, std::vector<Corner>& corners,
-                  std::vector<std::array<Neighbour, 4>>& neighbours);
+                  std::vector<Joint>& joints, std::vector<std::array<Neighbour, 4>>& neighbours);
 
 }  // namespace firmtouch::tools

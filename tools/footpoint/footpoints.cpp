@@ -48,8 +48,10 @@ Footpoints::Footpoints(const std::vector<BezierCurve>& curves,
   for (const BezierCurve& c : curves) curves_.emplace_back(c);
   find_joints();
   for (const BezierPatch& p : patches) patches_.emplace_back(p);
-  find_borders(patches, gap, extent_m_, borders_, corners_, neighbours_);
+  find_borders(patches, gap, extent_m_, borders_, corners_, joints_, neighbours_);
   for (const Border& b : borders_) border_curves_.emplace_back(b.curve);
+  for (const Joint& j : joints_) joint_curves_.emplace_back(j.border.curve);
+  find_vertices();
 }
 
 // A curve's ends and corners are listed; over smooth joints its equation goes on.
@@ -199,12 +201,113 @@ void Footpoints::add_borders(Point p_m, std::vector<Footpoint>& found, bool& is_
   }
 }
 
+// The corners of patches, except those that are listed as corners.
+void Footpoints::find_vertices() {
+  const double tolerance = (1e-9 + gap_) * extent_m_;
+  const auto vertex_of = [&](const Corner& corner) -> Vertex* {
+    const auto is_at = [&](Point at) { return length(at - corner.at) <= tolerance; };
+    for (const Corner& c : corners_)
+      if (is_at(c.at)) return nullptr;
+    for (Vertex& v : vertices_)
+      if (is_at(v.corner.at)) return &v;
+    vertices_.push_back({corner, {}, {}});
+    return &vertices_.back();
+  };
+  for (size_t k = 0; k < patches_.size(); ++k) {
+    const BezierPatch& s = patches_[k].patch;
+    for (const double u : {0.0, 1.0})
+      for (const double v : {0.0, 1.0})
+        if (Vertex* vertex = vertex_of(
+                {patches_[k].point(u, v), s.piece, u > 0 ? s.u1 : s.u0, v > 0 ? s.v1 : s.v0}))
+          vertex->patches.push_back({k, u, v});
+  }
+  for (size_t k = 0; k < borders_.size(); ++k) {
+    const Border& b = borders_[k];
+    for (const bool at_end : {false, true})
+      if (Vertex* vertex = vertex_of({border_curves_[k].point(at_end ? 1 : 0), b.curve.piece,
+                                      at_end ? b.u1 : b.u0, at_end ? b.v1 : b.v0}))
+        vertex->borders.push_back({k, at_end});
+  }
+}
+
+// The distance rises on both sides of a joint, or falls on both.
+void Footpoints::add_joints(Point p_m, std::vector<Footpoint>& found) const {
+  std::vector<Root> roots;
+  for (size_t k = 0; k < joints_.size(); ++k) {
+    const Border& border = joints_[k].border;
+    const Neighbour& over = joints_[k].over;
+    const CurveSystem& c = joint_curves_[k];
+    bool is_zero = false;
+    roots.clear();
+    roots_of(c.coefficients(p_m), c.noise(p_m), roots, is_zero);
+    for (const Root& root : roots) {
+      const double here = rise_into(border.patch, border.side, root.t, p_m);
+      const double there =
+          rise_into(over.patch, over.side, over.is_turned ? 1 - root.t : root.t, p_m);
+      if (!(here * there > 0)) continue;
+      const FootKind along = kind_of(root), across = here > 0 ? FootKind::kMin : FootKind::kMax;
+      add_unknown({along == across ? along : FootKind::kSaddle, length(c.point(root.t) - p_m),
+                   c.point(root.t), c.piece.piece, border.u0 + root.t * (border.u1 - border.u0),
+                   border.v0 + root.t * (border.v1 - border.v0)},
+                  found);
+    }
+  }
+}
+
+// The distance rises into all that meets, or falls.
+void Footpoints::add_vertices(Point p_m, std::vector<Footpoint>& found) const {
+  for (const Vertex& vertex : vertices_) {
+    bool rises = true, falls = true;
+    const auto meet = [&](double rise) { rises &= rise >= 0, falls &= rise <= 0; };
+    for (const Vertex::BorderEnd& end : vertex.borders) {
+      const CurveSystem& c = border_curves_[end.border];
+      double f = 0, slope = 0;
+      c.value(p_m, end.at_end ? 1 : 0, f, slope);
+      meet(end.at_end ? -f : f);
+    }
+    for (const Vertex::PatchCorner& c : vertex.patches) {
+      if (!vertex.borders.empty()) break;
+      const SurfaceSystem& s = patches_[c.patch];
+      for (const int k : {0, 1}) {
+        const size_t i = c.u > 0 ? s.a[k].wide() - 1 : 0, j = c.v > 0 ? s.a[k].high() - 1 : 0;
+        const double f = s.a[k].at(i, j) - dot(p_m - s.origin, s.b[k].at(i, j));
+        meet((k == 0 ? c.u : c.v) > 0 ? -f : f);
+      }
+    }
+    if (!rises && !falls) continue;
+    const Corner& at = vertex.corner;
+    const FootKind kind = rises ? FootKind::kMin : FootKind::kMax;
+    add_unknown({vertex.borders.empty() ? kind : FootKind::kEnd, length(at.at - p_m), at.at,
+                 at.piece, at.u, at.v},
+                found);
+  }
+}
+
+// Slope of the squared distance from a side of a patch into it, up to a factor.
+double Footpoints::rise_into(size_t patch, int side, double t, Point p_m) const {
+  const double fixed = side % 2;
+  const bool is_row = side < 2;
+  const SurfaceSystem::Values at =
+      patches_[patch].values(p_m, is_row ? t : fixed, is_row ? fixed : t);
+  return (is_row ? at.i : at.h) * (side % 2 == 0 ? 1 : -1);
+}
+
+// Patches have roots a little beyond their ends, too, and rounding alone makes no second foot-point
+// there.
+void Footpoints::add_unknown(const Footpoint& foot, std::vector<Footpoint>& found) const {
+  for (const Footpoint& f : found)
+    if (length(f.point_m - foot.point_m) <= (1e-6 + 16 * gap_) * extent_m_) return;
+  found.push_back(foot);
+}
+
 std::vector<Footpoint> Footpoints::all(Point p_m, bool& is_complete) const {
   is_complete = true;
   std::vector<Footpoint> found;
   add_curves(p_m, found, is_complete);
   add_patches(p_m, found, is_complete);
   add_borders(p_m, found, is_complete);
+  add_joints(p_m, found);
+  add_vertices(p_m, found);
   for (const Corner& c : corners_)
     found.push_back({FootKind::kEnd, length(c.at - p_m), c.at, c.piece, c.u, c.v});
   std::stable_sort(found.begin(), found.end(), [](const Footpoint& a, const Footpoint& b) {

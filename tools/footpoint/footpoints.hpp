@@ -70,7 +70,27 @@ class Footpoints {
   };
   void find_joints();
   void add_curves(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const;
+  // Where patches or borders meet smoothly, rounding parts them: near a centre of curvature
+  // each may have a foot-point beyond its own end. There the joined shape has it.
+  struct Vertex {
+    Corner corner;
+    struct PatchCorner {
+      size_t patch;
+      double u, v;  // local: 0 or 1
+    };
+    struct BorderEnd {
+      size_t border;
+      bool at_end;
+    };
+    std::vector<PatchCorner> patches;
+    std::vector<BorderEnd> borders;
+  };
+  void find_vertices();
   void add_patches(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const;
+  void add_joints(Point p_m, std::vector<Footpoint>& found) const;
+  void add_vertices(Point p_m, std::vector<Footpoint>& found) const;
+  double rise_into(size_t patch, int side, double t, Point p_m) const;
+  void add_unknown(const Footpoint& foot, std::vector<Footpoint>& found) const;
   void add_borders(Point p_m, std::vector<Footpoint>& found, bool& is_complete) const;
 
   std::vector<CurveSystem> curves_;
@@ -80,6 +100,9 @@ class Footpoints {
   std::vector<std::array<Neighbour, 4>> neighbours_;
   std::vector<Border> borders_;
   std::vector<CurveSystem> border_curves_;
+  std::vector<Joint> joints_;
+  std::vector<CurveSystem> joint_curves_;
+  std::vector<Vertex> vertices_;
   std::vector<Corner> corners_;
   double gap_ = 0, extent_m_ = 0;
   Point low_m_, high_m_;
