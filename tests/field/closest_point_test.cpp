@@ -11,6 +11,7 @@ namespace {
 
 using namespace firmtouch;  // NOLINT: a test file
 using field_test::coordinate;
+using field_test::CubeField;
 using field_test::Opened;
 using math::Vec3;
 
@@ -107,6 +108,105 @@ TEST(HostilePoints_GiveFiniteAnswers) {
           field::closest_point(o.view, o.mesh, {0.9f, 0.8f, 1.1f}, 0.3f, query::kUnlimited, hint);
       CHECK(next.closest.certificate.exact);
     }
+  }
+}
+
+TEST(FarAnswer_LeavesTheCellsBoundsAndSeedToTheNextQuery) {
+  const Opened o;
+  const Vec3 near{0.9f, 0.1f, 0.2f}, far{1.3f, 1.25f, -0.3f};
+  mesh::Hint hint;
+  CHECK(!field::closest_point(o.view, o.mesh, near, 0.05f, query::kUnlimited, hint).is_far);
+  hint.safe_subtree = 1;  // of the last place
+  CHECK(field::closest_point(o.view, o.mesh, far, 0.05f, query::kUnlimited, hint).is_far);
+  const field::Bounds bounds = field::distance_bounds(o.view, far);
+  CHECK_EQ(hint.leaf_slot, bounds.seed);
+  CHECK_EQ(hint.lower_m, bounds.lower_m);
+  CHECK_EQ(hint.sign, 1);
+  CHECK_EQ(hint.safe_subtree, query::kNowhere);
+  CHECK_EQ(hint.position_m.x, far.x);
+  CHECK_EQ(hint.position_m.y, far.y);
+  CHECK_EQ(hint.position_m.z, far.z);
+}
+
+TEST(AfterLessThanACell_TheSearchIsThatOfTheMeshAlone) {
+  const Opened o;
+  uint32_t state = 19;
+  for (uint32_t i = 0; i < 500; ++i) {
+    const Vec3 p{coordinate(state, 1.1f), coordinate(state, 1.1f), coordinate(state, 1.1f)};
+    const Vec3 next{p.x + coordinate(state, 0.01f), p.y, p.z};
+    mesh::Hint hint;
+    (void)mesh::closest_point(o.mesh, p, query::kUnlimited, hint);
+    mesh::Hint alone = hint;
+    const mesh::Closest truth = mesh::closest_point(o.mesh, next, query::kUnlimited, alone);
+    const mesh::Closest c =
+        field::closest_point(o.view, o.mesh, next, 10.0f, query::kUnlimited, hint).closest;
+    CHECK_EQ(c.distance_m, truth.distance_m);
+    CHECK_EQ(c.certificate.steps, truth.certificate.steps);
+    CHECK_EQ(hint.leaf_slot, alone.leaf_slot);
+    CHECK_EQ(hint.safe_subtree, alone.safe_subtree);
+  }
+}
+
+// A hint of the last tick holds nothing, so the bound and sign come from the field alone.
+TEST(OutOfBudgetWithAWarmHint_FieldsBoundAndSignReplaceTheSearchs) {
+  const Opened o;
+  uint32_t state = 17, inside = 0, outside = 0;
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const Vec3 p{coordinate(state, 1.3f), coordinate(state, 1.3f), coordinate(state, 1.3f)};
+    const field::Bounds bounds = field::distance_bounds(o.view, p);
+    mesh::Hint hint;
+    hint.leaf_slot = bounds.seed;
+    hint.position_m = p;
+    const mesh::Closest c = field::closest_point(o.view, o.mesh, p, 10.0f, {1}, hint).closest;
+    CHECK_GE(c.certificate.lower_m, bounds.lower_m);
+    CHECK_GE(hint.lower_m, bounds.lower_m);
+    if (bounds.sign == 0) continue;
+    CHECK_EQ(c.certificate.sign, bounds.sign);
+    CHECK_EQ(c.distance_m < 0, bounds.sign < 0);
+    CHECK_EQ(hint.sign, bounds.sign);
+    (bounds.sign < 0 ? inside : outside) += 1;
+  }
+  CHECK_GT(inside, 300u);
+  CHECK_GT(outside, 300u);
+}
+
+// Where a cell states nothing, a jump of more than a cell leaves what the last certificate says.
+TEST(UnknownCell_AfterAJump_KeepsTheLastCertificate) {
+  CubeField distance_field;
+  for (int16_t& word : distance_field.words) word = field::kUnknown;
+  const mesh::View mesh = distance_field.cube.view();
+  field::View view;
+  CHECK(field::open(distance_field.sections(), mesh, view).ok());
+  mesh::Hint hint;
+  CHECK(field::closest_point(view, mesh, {0.02f, 0.01f, 0}, 0.1f, query::kUnlimited, hint)
+            .closest.certificate.exact);
+  const mesh::Closest c =
+      field::closest_point(view, mesh, {0.42f, 0.01f, 0}, 0.1f, {1}, hint).closest;
+  CHECK_EQ(c.certificate.sign, -1);
+  CHECK(c.certificate.lower_m > 0.57f && c.certificate.lower_m <= 0.58f);
+}
+
+// A sheet's field has no signs: 0 is no reason to query the mesh in free space.
+TEST(UnsignedField_FreeSpace_NeedsNoMeshQuery) {
+  CubeField distance_field;
+  distance_field.head.is_signed = 0;
+  for (int16_t& word : distance_field.words)
+    if (word < 0) word = static_cast<int16_t>(-1 - word);
+  distance_field.cube.head.is_signed = 0;
+  mesh::Sections sections = distance_field.cube.sections();
+  sections.vertex_normals = sections.edge_folds = {};
+  const mesh::View mesh = test::opened<mesh::View>(sections);
+  field::View view;
+  CHECK(field::open(distance_field.sections(), mesh, view).ok());
+  const Vec3 points[] = {{0, 0, 0}, {0.1f, -0.2f, 0.1f}, {1.3f, 1.3f, 1.3f}, {5, 1, 2}};
+  for (const Vec3& p : points) {
+    mesh::Hint hint;
+    const field::Answer answer =
+        field::closest_point(view, mesh, p, 0.05f, query::kUnlimited, hint);
+    CHECK(answer.is_far);
+    CHECK_EQ(answer.closest.certificate.steps, 1u);
+    CHECK_EQ(answer.closest.certificate.sign, 0);
+    CHECK_GT(answer.closest.certificate.lower_m, 0.05f);
   }
 }
 

@@ -65,6 +65,9 @@ TEST(R305SidesThatAreNotTheMeshs) {
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.is_signed = 2; }), 305'000u);
   const CubeField distance_field;
   CHECK_EQ(refusal_of(distance_field.sections(), mesh::View()), 305'000u);
+  CubeField unsigned_field;
+  unsigned_field.head.is_signed = 0;
+  CHECK_EQ(refusal_of(unsigned_field.sections(), mesh::View()), 305'000u);
 }
 
 TEST(R306ReservedWordsAreZero) {
@@ -72,10 +75,20 @@ TEST(R306ReservedWordsAreZero) {
 }
 
 TEST(R307GridThatDoesNotHoldTheMesh) {
-  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[1] = -0.99f; }), 307'001u);
-  CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[2] = -1.8f; }), 307'002u);
+  for (uint32_t k = 0; k < 3; ++k) {
+    CHECK_EQ(refusal_with([=](CubeField& m) { m.head.low_m[k] = -0.99f; }), 307'000u + k);
+    CHECK_EQ(refusal_with([=](CubeField& m) { m.head.low_m[k] = -1.8f; }), 307'000u + k);
+  }
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = -2e8f; }), 307'000u);
   CHECK_EQ(refusal_with([](CubeField& m) { m.head.low_m[0] = nan_value(); }), 307'000u);
+  for (uint32_t k = 0; k < 3; ++k) {  // to 6e8 m, from -2e8 m
+    const auto huge = [=](CubeField& m) {
+      for (float& low_m : m.head.low_m) low_m = -1e8f;
+      m.head.low_m[k] = -2e8f;
+      m.head.cell_m = 1e8f;
+    };
+    CHECK_EQ(refusal_with(huge), 307'000u + k);
+  }
 }
 
 TEST(R308CellsOfNoSize) {
