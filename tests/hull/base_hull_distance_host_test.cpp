@@ -4,6 +4,7 @@
 #include "../mesh/brute_force.hpp"
 #include "bake/hull/bake_base_hull.hpp"
 #include "bumpy_ring.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/base_hull_distance.hpp"
 #include "firmtouch/hull/vertices.hpp"
 #include "surface/make/make_part.hpp"
@@ -91,6 +92,31 @@ TEST(WhatABaseHullCertifiesOfTheMeshIsTrueUnderEveryBudget) {
   check_distances(ring, finer, 300);
 }
 
+// From one to a million diagonals away, and about a hull that is itself far from the origin.
+TEST(BaseHull_FarPoints_LowerBoundIsBelowTheTruthByItsRounding) {
+  for (const float away : {0.0f, 2000.0f}) {
+    const Point shift{double{away}, -double{away}, 0};
+    const BakedHull ring(mesh_test::moved(bumpy_ring(4, 2, 0.2), 1, shift), 100, 16);
+    const hull::BaseHull& base_hull = ring.view.base_hull();
+    const Surface surface = surface_of(base_hull);
+    const mesh_test::BruteForce by_force(surface);
+    Random random(3);
+    for (int i = 0; i < 3000; ++i) {
+      test::note("point", i);
+      const double reach = std::pow(10.0, i % 7);
+      const auto off = [&] { return reach * random.between(-1, 1); };
+      const math::Vec3 p = mesh_test::narrow(Point{3 + off(), 3 + off(), off()} + shift);
+      const double truth = by_force(wide(p)).distance;
+      const hull::BaseHullDistance reported =
+          hull::base_hull_distance(base_hull, p, query::kUnlimited);
+      CHECK(reported.exact);
+      if (reported.side != hull::BaseHullSide::kOutside) continue;
+      CHECK_LE(double{reported.lower_m}, truth);
+      CHECK_LE(truth - double{reported.lower_m}, 1e-5 + 6e-7 * truth);
+    }
+  }
+}
+
 TEST(BaseHull_HostilePoints_GiveFiniteDistances) {
   const BakedHull ring(bumpy_ring(4, 2), 100, 22);
   const float values[] = {0, -0.0f, 1e-42f, 1, 1e7f, 3e18f, -3e19f, 3e38f, FLT_MAX, NAN, INFINITY};
@@ -131,6 +157,15 @@ TEST(BaseHull_LineThroughACorner_IsChargedAndKnownOrUnknown) {
         CHECK(reported.side != hull::BaseHullSide::kUnknown);
         charged += reported.work >= reported.steps + 100 ? 1 : 0;
       }
+      // What integers decide is not begun without a budget: one such face and the rest of its leaf
+      // take less than 130 units.
+      int32_t winding = 0;
+      query::Work whole(query::kUnlimited);
+      CHECK(hull::wind_around(base_hull, p, whole, winding));
+      if (whole.used() <= 130) continue;
+      query::Work short_of_it(query::Budget{whole.used() - 130});
+      CHECK(!hull::wind_around(base_hull, p, short_of_it, winding));
+      CHECK_EQ(winding, 0);
     }
   CHECK_LT(100, charged);
   CHECK_LT(100, starved);

@@ -181,6 +181,66 @@ TEST(OutOfMemoryOrBudget_NoMeshCrossingBeforeReportedOne) {
   CHECK(exact > 50);
 }
 
+// A closure that does not fit leaves a hull that is not the mesh, and whose crossings are not all.
+TEST(OutOfMemory_AllCrossings_SayThatThereMayBeMore) {
+  Refined<12, 4> opened;
+  uint32_t exact = 0, cut = 0;
+  each_segment(13, 400, [&](uint32_t, const Segment& s) {
+    mesh::SurfaceCrossing truth[16], reported[16];
+    const mesh::Crossings all =
+        hull::all_crossings(opened.view, s.a, s.b, query::kUnlimited, {truth});
+    const hull::RefinedCrossings found =
+        opened.refinement.all(s.a, s.b, query::kUnlimited, {reported});
+    CHECK_EQ(opened.refinement.splits().size(), 0u);
+    (found.exact ? exact : cut) += 1;
+    if (!found.exact) return;
+    CHECK_EQ(found.found == 0, all.found == 0);
+    if (all.found == 0 || found.found == 0) return;
+    CHECK_EQ(reported[0].triangle, truth[0].triangle);
+    CHECK_EQ(reported[found.reported - 1].triangle, truth[all.reported - 1].triangle);
+  });
+  CHECK(exact > 50);
+  CHECK(cut > 50);
+}
+
+TEST(QueryAfterSplits_AnswersAsOfTheBaseHull) {
+  Refined<kMax, 64> opened, fresh;
+  each_segment(15, 200, [&](uint32_t i, const Segment& s) {
+    CHECK(opened.refinement.split(i % opened.view.collapse_count()));
+    mesh::SurfaceCrossing buffer[16];
+    if (i % 3 == 0) {
+      const hull::RefinedHit hit = opened.refinement.first(s.a, s.b, query::kUnlimited);
+      const hull::RefinedHit wanted = fresh.refinement.first(s.a, s.b, query::kUnlimited);
+      CHECK(hit.exact);
+      CHECK_EQ(hit.hit, wanted.hit);
+      CHECK_EQ(hit.triangle, wanted.triangle);
+      CHECK_EQ(hit.splits, wanted.splits);
+    } else if (i % 3 == 1) {
+      const hull::RefinedHit wanted = fresh.refinement.any(s.a, s.b, query::kUnlimited);
+      CHECK_EQ(opened.refinement.any(s.a, s.b, query::kUnlimited).hit, wanted.hit);
+    } else {
+      const hull::RefinedCrossings wanted =
+          fresh.refinement.all(s.a, s.b, query::kUnlimited, {buffer});
+      const hull::RefinedCrossings found =
+          opened.refinement.all(s.a, s.b, query::kUnlimited, {buffer});
+      CHECK_EQ(found.found, wanted.found);
+      CHECK_EQ(found.splits, wanted.splits);
+    }
+  });
+}
+
+TEST(SegmentBesideTheHull_TestsAndSplitsNothing) {
+  Refined<kMax, 4> opened;
+  mesh::SurfaceCrossing buffer[4];
+  const hull::RefinedHit hit = opened.refinement.first({-3, 4, 1}, {3, 4, 1}, query::kUnlimited);
+  CHECK(hit.exact && !hit.hit);
+  CHECK_EQ(hit.tests + hit.splits, 0u);
+  const hull::RefinedCrossings all =
+      opened.refinement.all({-3, 4, 1}, {3, 4, 1}, query::kUnlimited, {buffer});
+  CHECK(all.exact && all.found == 0);
+  CHECK_EQ(all.tests + all.splits + all.reported, 0u);
+}
+
 TEST(ClosureThatDoesNotFit_IsReverted) {
   Refined<12, 4> opened;
   hull::Refinement& refinement = opened.refinement;
@@ -216,6 +276,9 @@ TEST(HostileSegments_GiveFiniteResults) {
     const mesh::Hit truth = hull::cast_segment(opened.view, a, b, query::kUnlimited);
     mesh::SurfaceCrossing buffer[4];
     const mesh::Crossings all = hull::all_crossings(opened.view, a, b, query::kUnlimited, {buffer});
+    const bool is_finite =
+        a.x - a.x + a.y - a.y + a.z - a.z + b.x - b.x + b.y - b.y + b.z - b.z <= 0;
+    if (!is_finite) CHECK(!(hit.exact || truth.exact || all.exact));
     CHECK(hit.t >= 0 && hit.t <= 1);
     CHECK(truth.t >= 0 && truth.t <= 1);
     CHECK_EQ(truth.hit, all.found > 0);

@@ -119,6 +119,18 @@ TEST(R525StarsThatAreNone) {
 TEST(R526CornersThatAreGoneOrNotYetThere) {
   CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 4); }), 526'009u);
   CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 65535); }), 526'009u);
+  // The first id that is none: behind the origins lies a number that would do.
+  static uint8_t origins[1024];
+  CHECK_EQ(refusal_with([](SmallHull& h) {
+             const uint32_t bytes = h.sections.origins.size(),
+                            id = SmallHull::get_id(h.record(9), 1);
+             CHECK(bytes + 2 <= sizeof origins);
+             __builtin_memcpy(origins, h.sections.origins.data(), bytes);
+             __builtin_memcpy(origins + bytes, origins + 2 * id, 2);
+             h.sections.origins = {origins, bytes};
+             SmallHull::set_id(h.record(9), 1, bytes / 2);
+           }),
+           526'009u);
   const auto too_young = [](SmallHull& h) {
     SmallHull::set_id(h.record(9), 1, SmallHull::get_id(h.record(20), 0));
   };

@@ -133,7 +133,7 @@ void check_triangles(const BakedHull& baked, int count) {
                                {splits.data(), size(splits)},
                                {candidates.data(), size(candidates)}});
   std::vector<mesh::SurfaceCrossing> met(faces);
-  uint32_t unclear = 0, crossed = 0, free_of_it = 0, sure_of_it = 0;
+  uint32_t unclear = 0, crossed = 0, free_of_it = 0, sure_of_it = 0, any_steps = 0, all_steps = 0;
   for (int i = 0; i < count; ++i) {
     test::note("triangle", i);
     const Three three = threes.next(i);
@@ -153,12 +153,19 @@ void check_triangles(const BakedHull& baked, int count) {
     const hull::TriangleHit any = hull::any_crossed(view, three.corner, query::kUnlimited);
     CHECK(any.exact);
     CHECK_EQ(any.hit, !truth.empty());
+    CHECK_LE(any.steps, all.steps);
+    any_steps += any.hit ? any.steps : 0;
+    all_steps += any.hit ? all.steps : 0;
     if (any.hit) CHECK(std::binary_search(truth.begin(), truth.end(), any.triangle));
-    uint32_t two[2];
-    const hull::TriangleHits some =
-        hull::all_crossed(view, three.corner, query::kUnlimited, {two, 2});
-    CHECK_EQ(some.found, truth.size());
-    for (uint32_t k = 0; k < some.reported; ++k) CHECK_EQ(two[k], truth[k]);
+    for (const uint32_t room : {0u, 1u, 2u}) {
+      uint32_t few[4] = {9, 9, 9, 9};
+      const hull::TriangleHits some =
+          hull::all_crossed(view, three.corner, query::kUnlimited, {few, room});
+      CHECK_EQ(some.found, truth.size());
+      CHECK_EQ(some.reported, std::min<size_t>(room, truth.size()));
+      for (uint32_t k = 0; k < some.reported; ++k) CHECK_EQ(few[k], truth[k]);
+      for (uint32_t k = room; k < 4; ++k) CHECK_EQ(few[k], 9u);
+    }
     // If the base hull reports none there is none. Refinement reports no crossing that is none.
     const hull::TriangleHit of_base_hull =
         hull::base_hull_crossed(view.base_hull(), three.corner, query::kUnlimited);
@@ -175,6 +182,7 @@ void check_triangles(const BakedHull& baked, int count) {
     (truth.empty() ? free_of_it : crossed) += 1;
     sure_of_it += of_base_hull.hit ? 0u : 1u;
   }
+  CHECK_LT(any_steps * 2, all_steps);
   CHECK_LT(unclear * 20, static_cast<uint32_t>(count));
   CHECK_LT(static_cast<uint32_t>(count) / 8, crossed);
   CHECK_LT(static_cast<uint32_t>(count) / 8, free_of_it);
