@@ -276,6 +276,48 @@ TEST(BaseHull_FirstCrossing_EqualsAllFacesTested) {
               900);  // kept vertices alone
 }
 
+TEST(BaseHullCast_SegmentThatIsNotFinite_IsNoHitAndNotExact) {
+  const BakedHull baked(bumpy_ring(4, 2), 100, 16);
+  for (const float bad : {NAN, INFINITY, -INFINITY})
+    for (int k = 0; k < 6; ++k) {
+      float end[6] = {-3, 0, 0, 3, 0, 0};
+      end[k] = bad;
+      const hull::BaseHullHit hit =
+          hull::cast_base_hull(baked.view.base_hull(), {end[0], end[1], end[2]},
+                               {end[3], end[4], end[5]}, query::kUnlimited);
+      CHECK(!hit.hit && !hit.exact);
+    }
+}
+
+// A corner at the origin, so that floats hold segments of almost no length about it, and of so much
+// that their squares are none.
+TEST(BaseHullCast_SegmentsOfAlmostNoLengthAndOfTooMuch_MissNoFace) {
+  const Surface ring = bumpy_ring(4, 2, 0.2);
+  Surface moved = ring;
+  for (math::Vec3& v : moved.vertices) v = to_vec3(to_point(v) - to_point(ring.vertices[5]));
+  const BakedHull baked(moved, 100000, 16);  // kept vertices alone
+  Random random(14);
+  uint32_t hits = 0;
+  for (int i = 0; i < 1200; ++i) {
+    test::note("segment", i);
+    const auto off = [&](double size) {
+      const double x = random.between(-size, size), y = random.between(-size, size);
+      return to_vec3({x, y, random.between(-size, size)});
+    };
+    const double size =
+        std::pow(10.0, i % 2 == 0 ? -random.between(10, 24) : random.between(8, 18));
+    Line line{off(size), off(size)};
+    if (i % 2 == 1) line.b = off(0.05);
+    const mesh::Hit truth = first_of_all_faces(baked.view.base_hull(), line);
+    hits += truth.hit ? 1u : 0u;
+    const hull::BaseHullHit reported =
+        hull::cast_base_hull(baked.view.base_hull(), line.a, line.b, query::kUnlimited);
+    if (truth.hit) CHECK(reported.hit && reported.t <= truth.t + 0x1p-17f);
+    if (reported.exact) CHECK_EQ(reported.hit, truth.hit);
+  }
+  CHECK_LT(150u, hits);
+}
+
 TEST(BaseHullCast_OutOfBudget_ReportsHitAtStart) {
   const BakedHull baked(bumpy_ring(8, 4), 200, 16);
   const hull::BaseHullHit hit =

@@ -23,6 +23,19 @@ TEST(R540BaseHullOfTheWrongSize) {
            540'001u);
 }
 
+// Wherever it ends, also just before one of its parts.
+TEST(R540BaseHullThatEndsEarly) {
+  SmallHull whole;
+  for (uint32_t bytes = 4; bytes < whole.sections.base_hull.size(); bytes += 4) {
+    test::note("bytes", bytes);
+    const uint32_t refusal = refusal_with([=](SmallHull& h) {
+      h.base_hull_head().bytes = bytes;
+      h.sections.base_hull = {h.sections.base_hull.data(), bytes};
+    });
+    CHECK_EQ(refusal, bytes < sizeof(hull::BaseHullHead) ? 540'000u : 540'001u);
+  }
+}
+
 TEST(R541CountsOutOfRange) {
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_head().cut = h.head().collapse_count + 1; }),
            541'000u);
@@ -51,6 +64,11 @@ TEST(R543VertexThatIsNotThere) {
              h.base_hull_kept()[0].id = id[0] | static_cast<uint32_t>(id[1]) << 8;
            }),
            543'000u + made);
+  CHECK_EQ(refusal_with([](SmallHull& h) {  // the first id that is none
+             uint32_t& id = h.base_hull_kept()[0].id;
+             id = h.add_origin(id);
+           }),
+           543'000u + made);
 }
 
 TEST(R544VertexThatLiesElsewhere) {
@@ -63,6 +81,16 @@ TEST(R544VertexThatLiesElsewhere) {
 
 TEST(R545CornerOutOfRange) {
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_corners()[1] = 60000; }), 545'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) {  // the first vertex that is none
+             h.base_hull_corners()[1] = static_cast<uint16_t>(h.base_hull_head().made_count +
+                                                              h.base_hull_head().kept_count);
+           }),
+           545'000u);
+  CHECK_EQ(refusal_with([](SmallHull& h) {  // the first corner that is none of the leaf's
+             hull::BaseHullFace& face = h.base_hull_faces()[3];
+             face = static_cast<hull::BaseHullFace>((face & 0xFF0Fu) | hull::corners_of(face) << 4);
+           }),
+           545'003u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_faces()[3] |= 0x00F0; }), 545'003u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_faces()[3] ^= 0x1000; }), 545'003u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_faces()[4] |= 0xF000; }), 545'004u);
@@ -91,6 +119,11 @@ TEST(R546TrianglesThatAreNotTheFaces) {
   CHECK_EQ(rule_with([](SmallHull& h) { ++h.base_hull_triangles()[0].face; }),
            hull::kRuleBaseHullTriangles);
   CHECK_EQ(rule_with([](SmallHull& h) { h.base_hull_triangles()[0].triangle = 60000; }),
+           hull::kRuleBaseHullTriangles);
+  CHECK_EQ(rule_with([](SmallHull& h) {  // the first triangle that is none
+             uint32_t& triangle = h.base_hull_triangles()[0].triangle;
+             triangle = h.add_triangle(triangle);
+           }),
            hull::kRuleBaseHullTriangles);
 }
 

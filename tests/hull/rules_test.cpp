@@ -57,6 +57,7 @@ TEST(R504To509SectionsOfTheWrongSize) {
 }
 
 TEST(R510GridThatIsNone) {
+  CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[0] = -2e8f; }), 510'000u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[1] = nan_value(); }), 510'001u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.head().grid_low_m[2] = 2e8f; }), 510'002u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.head().cell_m *= 1.5f; }), 510'003u);
@@ -119,18 +120,10 @@ TEST(R525StarsThatAreNone) {
 TEST(R526CornersThatAreGoneOrNotYetThere) {
   CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 4); }), 526'009u);
   CHECK_EQ(refusal_with([](SmallHull& h) { SmallHull::set_id(h.record(9), 1, 65535); }), 526'009u);
-  // The first id that is none: behind the origins lies a number that would do.
-  static uint8_t origins[1024];
-  CHECK_EQ(refusal_with([](SmallHull& h) {
-             const uint32_t bytes = h.sections.origins.size(),
-                            id = SmallHull::get_id(h.record(9), 1);
-             CHECK(bytes + 2 <= sizeof origins);
-             __builtin_memcpy(origins, h.sections.origins.data(), bytes);
-             __builtin_memcpy(origins + bytes, origins + 2 * id, 2);
-             h.sections.origins = {origins, bytes};
-             SmallHull::set_id(h.record(9), 1, bytes / 2);
-           }),
-           526'009u);
+  const auto first_that_is_none = [](SmallHull& h) {
+    SmallHull::set_id(h.record(9), 1, h.add_origin(SmallHull::get_id(h.record(9), 1)));
+  };
+  CHECK_EQ(refusal_with(first_that_is_none), 526'009u);
   const auto too_young = [](SmallHull& h) {
     SmallHull::set_id(h.record(9), 1, SmallHull::get_id(h.record(20), 0));
   };
@@ -142,6 +135,10 @@ TEST(R527NewVertexThatIsAnother) {
     SmallHull::set_id(h.record(5), 0, SmallHull::get_id(h.record(6), 0));
   };
   CHECK_EQ(refusal_with(other), 527'005u);
+  const auto first_that_is_none = [](SmallHull& h) {
+    SmallHull::set_id(h.record(5), 0, h.add_origin(SmallHull::get_id(h.record(5), 0)));
+  };
+  CHECK_EQ(refusal_with(first_that_is_none), 527'005u);
 }
 
 TEST(R528TrianglesThatAreNotTheStars) {
@@ -151,6 +148,12 @@ TEST(R528TrianglesThatAreNotTheStars) {
     SmallHull::set_id(record, at, SmallHull::get_id(record, at + 1));
   };
   CHECK_EQ(refusal_with(other), 528'000u);
+  const auto first_that_is_none = [](SmallHull& h) {
+    uint8_t* record = h.record(0);
+    const uint32_t at = 1 + hull::link_of(hull::View::head_of(record));
+    SmallHull::set_id(record, at, h.add_triangle(SmallHull::get_id(record, at)));
+  };
+  CHECK_EQ(refusal_with(first_that_is_none), 528'000u);
 }
 
 TEST(R529VertexOutsideTheHullsBox) {

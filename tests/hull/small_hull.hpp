@@ -52,6 +52,28 @@ struct SmallHull {
     return record[2 + 2 * i] | static_cast<uint32_t>(record[3 + 2 * i]) << 8;
   }
 
+  /// Puts a copy of what `id` reads behind the last id: a number that would do there.
+  /// Result: the id behind the last one.
+  uint32_t add_origin(uint32_t id) {
+    static uint8_t copy[1024];
+    const uint32_t bytes_of = sections.origins.size();
+    CHECK(bytes_of + 2 <= sizeof copy);
+    __builtin_memcpy(copy, sections.origins.data(), bytes_of);
+    __builtin_memcpy(copy + bytes_of, copy + 2 * id, 2);
+    sections.origins = {copy, bytes_of};
+    return bytes_of / 2;
+  }
+  /// The same of the mesh's triangles.
+  uint32_t add_triangle(uint32_t triangle) {
+    alignas(4) static uint8_t copy[4096];
+    const uint32_t bytes_of = sections.triangles16.size();
+    CHECK(bytes_of + 6 <= sizeof copy);
+    __builtin_memcpy(copy, sections.triangles16.data(), bytes_of);
+    __builtin_memcpy(copy + bytes_of, copy + 6 * triangle, 6);
+    sections.triangles16 = {copy, bytes_of};
+    return bytes_of / 6;
+  }
+
   // Parts of the base hull, in the layout's order.
   uint8_t* base_hull_boxes() { return open_up(sections.base_hull) + sizeof(hull::BaseHullHead); }
   uint32_t base_hull_leaves() {

@@ -5,6 +5,7 @@
 
 #include "../surface/shapes.hpp"
 #include "bumpy_ring.hpp"
+#include "firmtouch/hull/base_hull_cast.hpp"
 #include "firmtouch/hull/complete_cast.hpp"
 #include "firmtouch/hull/ray.hpp"
 #include "firmtouch/hull/refinement.hpp"
@@ -171,6 +172,11 @@ void check_triangles(const BakedHull& baked, int count) {
         hull::base_hull_crossed(view.base_hull(), three.corner, query::kUnlimited);
     CHECK(of_base_hull.exact);
     if (!of_base_hull.hit) CHECK(truth.empty());
+    int32_t winding = 0;
+    query::Work to_begin(query::kUnlimited);
+    CHECK(hull::wind_around(view.base_hull(), three.corner[0], to_begin, winding));
+    CHECK_LE(to_begin.visits(), of_base_hull.steps);
+    if (winding == 0 && of_base_hull.hit) CHECK_LT(to_begin.visits(), of_base_hull.steps);
     const hull::RefinedCrossings refined =
         refinement.all(three.corner, query::kUnlimited, {met.data(), faces});
     CHECK(refined.exact);
