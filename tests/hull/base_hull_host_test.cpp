@@ -285,7 +285,7 @@ TEST(BaseHullCast_SegmentThatIsNotFinite_IsNoHitAndNotExact) {
       const hull::BaseHullHit hit =
           hull::cast_base_hull(baked.view.base_hull(), {end[0], end[1], end[2]},
                                {end[3], end[4], end[5]}, query::kUnlimited);
-      CHECK(!hit.hit && !hit.exact);
+      CHECK(!hit.hit && !hit.exact && hit.steps == 0);
     }
 }
 

@@ -23,10 +23,13 @@ TEST(R540BaseHullOfTheWrongSize) {
            540'001u);
 }
 
-// Wherever it ends, also just before one of its parts.
+// Wherever it ends, also behind the part that queries read.
 TEST(R540BaseHullThatEndsEarly) {
   SmallHull whole;
-  for (uint32_t bytes = 4; bytes < whole.sections.base_hull.size(); bytes += 4) {
+  const uint32_t resident =
+      static_cast<uint32_t>(whole.base_hull_ids() - whole.sections.base_hull.data());
+  for (uint32_t bytes = 4; bytes < whole.sections.base_hull.size();
+       bytes += bytes < resident - 44 ? 44 : 4) {
     test::note("bytes", bytes);
     const uint32_t refusal = refusal_with([=](SmallHull& h) {
       h.base_hull_head().bytes = bytes;
@@ -51,6 +54,18 @@ TEST(R542BoxOutsideTheHulls) {
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_head().high_m[1] += 1.0f; }), 542'001u);
   CHECK_EQ(refusal_with([](SmallHull& h) { h.base_hull_head().high_m[2] = __builtin_nanf(""); }),
            542'002u);
+}
+
+TEST(R542_OfABaseHullThatIsOpenedAlone) {
+  SmallHull small;
+  hull::View view;
+  hull::BaseHull base_hull;
+  CHECK(hull::open(small.sections, view).ok());
+  CHECK(hull::open_base_hull(small.sections.base_hull, view, base_hull).ok());
+  small.base_hull_head().low_m[2] -= 1.0f;
+  CHECK_EQ(test::refusal(hull::open_base_hull(small.sections.base_hull, view, base_hull)),
+           542'002u);
+  CHECK(!base_hull.is_open());
 }
 
 TEST(R543VertexThatIsNotThere) {
@@ -125,6 +140,19 @@ TEST(R546TrianglesThatAreNotTheFaces) {
              triangle = h.add_triangle(triangle);
            }),
            hull::kRuleBaseHullTriangles);
+}
+
+TEST(R546TriangleThatIsNotListed) {
+  constexpr uint32_t kBytes = sizeof(hull::BaseHullTriangle);
+  SmallHull whole;
+  const uint32_t last = whole.base_hull_head().triangle_count - 1;
+  const uint32_t face = whole.base_hull_triangles()[last].face;
+  CHECK_EQ(refusal_with([](SmallHull& h) {
+             --h.base_hull_head().triangle_count;
+             h.base_hull_head().bytes -= kBytes;
+             h.sections.base_hull = shorter(h.sections.base_hull, kBytes);
+           }),
+           546'000u + face);
 }
 
 TEST(R547FaceOutsideItsLeaf) {

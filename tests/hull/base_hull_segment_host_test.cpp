@@ -39,6 +39,7 @@ class Lines {
     if (i % 8 == 2) line = through(about(0.5), 1e5);
     if (i % 8 == 3) line = through(about(0.5), 300);
     if (i % 8 == 4) line.b = {line.a.x + side * 1e-4f, line.a.y - side * 2e-4f, line.a.z};
+    if (i % 8 == 6) line.a = about(i % 16 == 6 ? 1e7 : 1e9);
     if (i % 8 == 5) line.b = {line.a.x + side * 0.4f, line.a.y + side * 1e-3f, line.a.z};
     return line;
   }
