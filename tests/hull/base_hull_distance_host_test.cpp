@@ -119,7 +119,8 @@ TEST(BaseHull_FarPoints_LowerBoundIsBelowTheTruthByItsRounding) {
 
 TEST(BaseHull_HostilePoints_GiveFiniteDistances) {
   const BakedHull ring(bumpy_ring(4, 2), 100, 22);
-  const float values[] = {0, -0.0f, 1e-42f, 1, 1e7f, 3e18f, -3e19f, 3e38f, FLT_MAX, NAN, INFINITY};
+  const float values[] = {0,       -0.0f,  1e-42f, 1,       1e7f, 3e18f,
+                          1.9e19f, -3e19f, 3e38f,  FLT_MAX, NAN,  INFINITY};
   for (const float x : values)
     for (const float y : values)
       for (const float z : values) {
@@ -132,7 +133,9 @@ TEST(BaseHull_HostilePoints_GiveFiniteDistances) {
         const double off = length({double{x}, double{y}, double{z}});
         if (finite && off > 10) CHECK(reported.side == hull::BaseHullSide::kOutside);
         if (finite && off > 10) CHECK_LE(double{reported.lower_m}, off + 10);
+        if (finite && off > 1e19) CHECK_LE(0.99e19, double{reported.lower_m});
         if (!finite) CHECK_EQ(reported.lower_m, 0.0f);
+        if (!finite) CHECK_EQ(reported.steps, 0u);
       }
 }
 

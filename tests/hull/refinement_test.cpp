@@ -126,6 +126,7 @@ TEST(FromOutsideTheFirstCrossingIsTheMeshs) {
     if (!truth.hit) return;
     ++hits;
     splits += hit.splits;
+    CHECK_LT(hit.splits, hit.steps);
     CHECK(hit.is_of_mesh);
     CHECK_EQ(bits_of(hit.t), bits_of(truth.t));
     CHECK_EQ(hit.triangle, truth.triangle);
@@ -155,6 +156,27 @@ TEST(FirstAndLastCrossing_AreTheMeshs_NoneIsInvented) {
       CHECK(at < all.reported);
     }
   });
+}
+
+// From so far that several crossings have times within the error of a time.
+TEST(FromAfar_TheFirstCrossingIsTheMeshs) {
+  Refined<kMax, 64> opened;
+  uint32_t hits = 0;
+  each_segment(21, 400, [&](uint32_t, const Segment& s) {
+    const Vec3 way{s.b.x - s.a.x, s.b.y - s.a.y, s.b.z - s.a.z};
+    const float times = 2e4f;
+    const Vec3 a{s.a.x - way.x * times, s.a.y - way.y * times, s.a.z - way.z * times};
+    const Vec3 b{s.b.x + way.x * times, s.b.y + way.y * times, s.b.z + way.z * times};
+    const mesh::Hit truth = hull::cast_segment(opened.view, a, b, query::kUnlimited);
+    const hull::RefinedHit hit = opened.refinement.first(a, b, query::kUnlimited);
+    CHECK(hit.exact);
+    CHECK_EQ(hit.hit, truth.hit);
+    if (!truth.hit) return;
+    ++hits;
+    CHECK_EQ(bits_of(hit.t), bits_of(truth.t));
+    CHECK_EQ(hit.triangle, truth.triangle);
+  });
+  CHECK(hits > 50);
 }
 
 // Half a closure is no hull: one that does not fit is taken back, and the hull's crossing reported.
@@ -278,7 +300,11 @@ TEST(HostileSegments_GiveFiniteResults) {
     const mesh::Crossings all = hull::all_crossings(opened.view, a, b, query::kUnlimited, {buffer});
     const bool is_finite =
         a.x - a.x + a.y - a.y + a.z - a.z + b.x - b.x + b.y - b.y + b.z - b.z <= 0;
-    if (!is_finite) CHECK(!(hit.exact || truth.exact || all.exact));
+    if (!is_finite) {
+      CHECK(!(hit.exact || truth.exact || all.exact));
+      CHECK(!refinement.any(a, b, query::kUnlimited).exact);
+      CHECK(!refinement.all(a, b, query::kUnlimited, {buffer}).exact);
+    }
     CHECK(hit.t >= 0 && hit.t <= 1);
     CHECK(truth.t >= 0 && truth.t <= 1);
     CHECK_EQ(truth.hit, all.found > 0);

@@ -135,6 +135,7 @@ void check_triangles(const BakedHull& baked, int count) {
                                {candidates.data(), size(candidates)}});
   std::vector<mesh::SurfaceCrossing> met(faces);
   uint32_t unclear = 0, crossed = 0, free_of_it = 0, sure_of_it = 0, any_steps = 0, all_steps = 0;
+  uint32_t all_found = 0, refined_found = 0;
   for (int i = 0; i < count; ++i) {
     test::note("triangle", i);
     const Three three = threes.next(i);
@@ -183,11 +184,15 @@ void check_triangles(const BakedHull& baked, int count) {
     for (uint32_t k = 0; k < refined.reported; ++k)
       CHECK(std::binary_search(truth.begin(), truth.end(), met[k].triangle));
     const hull::RefinedHit refined_any = refinement.any(three.corner, query::kUnlimited);
+    CHECK_EQ(refined_any.hit, refined.found != 0);
+    all_found += all.found;
+    refined_found += refined.found;
     if (refined_any.hit)
       CHECK(std::binary_search(truth.begin(), truth.end(), refined_any.triangle));
     (truth.empty() ? free_of_it : crossed) += 1;
     sure_of_it += of_base_hull.hit ? 0u : 1u;
   }
+  CHECK_LT(all_found, refined_found * 2);  // the rest is met inside the hull alone
   CHECK_LT(any_steps * 2, all_steps);
   CHECK_LT(unclear * 20, static_cast<uint32_t>(count));
   CHECK_LT(static_cast<uint32_t>(count) / 8, crossed);
