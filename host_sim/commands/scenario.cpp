@@ -9,6 +9,7 @@
 #include "host_sim/device/linkage_body.hpp"
 #include "host_sim/scenario/plan.hpp"
 #include "host_sim/trace/log.hpp"
+#include "host_sim/trace/stable_walls.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -70,7 +71,13 @@ int make_scenario(const cli::Arguments& options) {
   Scenario scenario;
   if (session.controller->linkage().is_open() || options.has("--device"))
     scenario = linkage_of(options, session, to);
-  const PlannedDevice device{scenario.device_file, scenario.linkage ? &*scenario.linkage : nullptr};
+  PlannedDevice device{scenario.device_file, scenario.linkage ? &*scenario.linkage : nullptr};
+  if (device.linkage != nullptr && !device.linkage->are_walls_forced) {
+    const StableWalls walls = stable_walls(scenario, environment);
+    device.stable_contact_N_per_m = walls.contact_N_per_m;
+    device.stable_guide_N_per_m = walls.guide_N_per_m;
+    device.stable_texture_N = walls.texture_N;
+  }
   if (device.linkage != nullptr) {
     const JointMotion middle = middle_of(*device.linkage);
     environment = environment_at(points_of(*device.linkage, middle).tip.at_m -

@@ -7,12 +7,12 @@
 
 #include "device/inertia.hpp"
 #include "firmtouch/device/homing.hpp"
-#include "firmtouch/device/stable_wall.hpp"
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
 #include "host_sim/device/drawn_links.hpp"
 #include "host_sim/plant/sampled_wall.hpp"
+#include "host_sim/trace/stable_walls.hpp"
 
 namespace firmtouch::host_sim {
 namespace {
@@ -133,19 +133,10 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
   summary_.has_guide = environment.has_guide();
   summary_.force_limit_N = parameter_value(scenario, params::kForceLimit);
   if (scenario.linkage) {
-    const auto limit =
-        [&, mass_kg = static_cast<float>(tools::least_figures(*scenario.linkage).least_mass_kg)](
-            params::Index damping) {
-          return static_cast<double>(device::stiffest_stable_N_per_m(
-              mass_kg, static_cast<float>(parameter_value(scenario, damping)),
-              static_cast<float>(parameter_value(scenario, params::kTickPeriod))));
-        };
-    const scene::Stiffening by = environment.stiffening();
-    summary_.stable_contact_N_per_m =
-        limit(params::kContactDamping) / static_cast<double>(by.share);
-    if (by.per_m > 0)
-      summary_.stable_texture_N = limit(params::kDeviceDamping) / static_cast<double>(by.per_m);
-    summary_.stable_guide_N_per_m = limit(params::kGuideDamping);
+    const StableWalls walls = stable_walls(scenario, environment);
+    summary_.stable_contact_N_per_m = walls.contact_N_per_m;
+    summary_.stable_guide_N_per_m = walls.guide_N_per_m;
+    summary_.stable_texture_N = walls.texture_N;
   }
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);
   summary_.budget_units = static_cast<uint32_t>(

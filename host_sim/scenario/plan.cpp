@@ -15,6 +15,9 @@ constexpr double kHover = 0.18;  // initial height of the hand above the guide's
 constexpr double kSnap = 0.04, kRelease = 0.12;
 constexpr double kPressDeep = 0.045;   // depth of the hand's aim below the surface
 constexpr double kMaxPress_m = 0.016;  // 4 N on the default spring and grip
+constexpr double kContact_N_per_m = 1200, kGuide_N_per_m = 400;
+constexpr double kForceLimit_N = 8;    // of the parameter table
+constexpr double kStableShare = 0.95;  // of the stiffest wall that a linkage renders
 constexpr double kHold_s = 0.4, kFirstPress_s = 1.6, kLastPress_s = 2;
 constexpr double kRoundTime_s = 4.0;      // once along the guide
 constexpr double kMaxSpeed = 0.9;         // diagonals per second: a faster hand leaves the guide
@@ -93,6 +96,25 @@ GuideRun plan_guide_run(const Environment& environment, Vec start, double diagon
   return run;
 }
 
+// What a linkage renders of a wall; `stable` of 0: all.
+double rendered(double wanted, double stable) {
+  return stable > 0 ? std::min(wanted, kStableShare * stable) : wanted;
+}
+
+double force_limit_N(const PlannedDevice& device) {
+  return rendered(kForceLimit_N, device.stable_texture_N);
+}
+
+void add_walls(TextLines& out, const PlannedDevice& device) {
+  out.add("contact_stiffness %.0f N/m\nguide_stiffness %.0f N/m",
+          rendered(kContact_N_per_m, device.stable_contact_N_per_m),
+          rendered(kGuide_N_per_m, device.stable_guide_N_per_m));
+  if (!(force_limit_N(device) < kForceLimit_N)) return;
+  out.line("# up to this force the texture is stable on the linkage; lower or longer waves or a");
+  out.line("# higher device_damping, if the linkage has it, allow more");
+  out.add("force_limit %.3g N", force_limit_N(device));
+}
+
 void add_axes(TextLines& out, const Box& box, double diagonal) {
   const Vec middle = (box.low + box.high) * 0.5;
   const Vec half = {std::max(0.5, (box.high.x - box.low.x) + diagonal),
@@ -116,7 +138,7 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
     out.add("scene_x %.6g m\nscene_y %.6g m\nscene_z %.6g m", origin.x, origin.y, origin.z);
   }
   out.add("\n# the surface and the guide\ntool_radius %.4g mm", tool_m * 1e3);
-  out.line("contact_stiffness 1200 N/m\nguide_stiffness 400 N/m");
+  add_walls(out, device);
   if (environment.has_surface() && !environment.has_mesh()) {
     const Orientation orientation = orientation_of(environment.tessellation());
     out.add("surface_closed %d\nsurface_turned %d", orientation.is_closed ? 1 : 0,
@@ -162,7 +184,8 @@ std::string plan_scenario(const Environment& environment, const std::string& ass
   const Box box = box_of(environment);
   const double diagonal = norm(box.high - box.low);
   const double tool = std::min(kToolRadius * diagonal, kMaxToolRadius_m);
-  const double deep = std::min(kPressDeep * diagonal, kMaxPress_m);
+  const double deep =
+      std::min(kPressDeep * diagonal, kMaxPress_m * force_limit_N(device) / kForceLimit_N);
   const Vec start = planned_start_m(environment, device);
   const bool is_followed = environment.has_guide() && reaches_guide(environment, device);
   const GuideRun run = plan_guide_run(environment, start, diagonal, is_followed);

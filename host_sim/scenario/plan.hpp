@@ -11,6 +11,8 @@ namespace firmtouch::host_sim {
 struct PlannedDevice {
   std::string file;  // as the scenario names it
   const tools::LinkageDevice* linkage = nullptr;
+  // Up to these the firmware enables walls on it; 0: no limit.
+  double stable_contact_N_per_m = 0, stable_guide_N_per_m = 0, stable_texture_N = 0;
   bool is_planar() const { return linkage != nullptr && linkage->joints.joints == 2; }
 };
 
@@ -19,8 +21,8 @@ struct PlannedDevice {
 Vec planned_start_m(const Environment& environment, const PlannedDevice& device);
 
 /// Text of a scenario scaled to the asset: press on the surface, follow the guide once without and
-/// once with pressing, if a linkage reaches it, emergency stop in contact. `asset`: path to write
-/// into the scenario.
+/// once with pressing, if a linkage reaches it, emergency stop in contact. Walls are no stiffer
+/// than the linkage renders. `asset`: path to write into the scenario.
 std::string plan_scenario(const Environment& environment, const std::string& asset,
                           const PlannedDevice& device = {});
 
