@@ -5,122 +5,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "controller/ride.hpp"
+#include "controller/arm_ride.hpp"
 #include "harness/random.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 using namespace controller_test;
-
-namespace {
-
-constexpr double kUpper_m = 0.3, kLower_m = 0.25, kAside_m = 0.35;
-constexpr double kCounts = 1e7;  // of a radian
-
-struct Point {
-  double x, y, z;
-};
-
-// Of a turntable, a shoulder and an elbow, by a product of rotations.
-Point tip_of(const double (&q)[3]) {
-  const double out = kUpper_m * std::cos(q[1]) + kLower_m * std::cos(q[1] + q[2]);
-  return {out * std::cos(q[0]), out * std::sin(q[0]),
-          kUpper_m * std::sin(q[1]) + kLower_m * std::sin(q[1] + q[2])};
-}
-
-void angles_of(const Point& p, double (&q)[3]) {
-  const double out = std::hypot(p.x, p.y), far2 = out * out + p.z * p.z;
-  q[0] = std::atan2(p.y, p.x);
-  q[2] = -std::acos((far2 - kUpper_m * kUpper_m - kLower_m * kLower_m) / (2 * kUpper_m * kLower_m));
-  q[1] = std::atan2(p.z, out) -
-         std::atan2(kLower_m * std::sin(q[2]), kUpper_m + kLower_m * std::cos(q[2]));
-}
-
-// The transposed Jacobian by central differences, times the force.
-double torque_of(double (&q)[3], int joint, const float (&force_N)[3]) {
-  constexpr double kStep = 1e-6;
-  const double middle = q[joint];
-  q[joint] = middle + kStep;
-  const Point after = tip_of(q);
-  q[joint] = middle - kStep;
-  const Point before = tip_of(q);
-  q[joint] = middle;
-  return (static_cast<double>(force_N[0]) * (after.x - before.x) +
-          static_cast<double>(force_N[1]) * (after.y - before.y) +
-          static_cast<double>(force_N[2]) * (after.z - before.z)) /
-         (2 * kStep);
-}
-
-device::LinkageLayout arm(float max_torque_Nm) {
-  device::LinkageLayout l = {};
-  l.kind = device::kSerialArm;
-  l.joints = 3;
-  l.length_m[0] = static_cast<float>(kUpper_m);
-  l.length_m[1] = static_cast<float>(kLower_m);
-  for (uint32_t k = 0; k < 3; ++k) {
-    l.joint[k] = {static_cast<float>(kCounts), 0, -3, 3};
-    l.max_torque_Nm[k] = max_torque_Nm;
-  }
-  l.torque_rise_s = 0.002f;
-  l.max_speed_rad_per_s = 50;
-  l.full_from = 0.1f;
-  l.gone_at = 0.05f;
-  return l;
-}
-
-std::vector<uint8_t> file_with(const device::LinkageLayout& layout) {
-  std::vector<tools::Section> sections = part_sections();
-  sections.push_back(tools::make_section(device::kLinkageSection, "arm", &layout, 1));
-  return file_of(std::move(sections));
-}
-
-void put_counts(const double (&q)[3], record::TickInput& input) {
-  for (int k = 0; k < 3; ++k)
-    input.encoder_counts[k] = static_cast<int32_t>(std::lround(q[k] * kCounts));
-}
-
-// The ride's tool, held by the arm, with the part aside of its base.
-struct ArmRide {
-  Asset asset;
-  Ride cartesian;
-  FullController controller;
-  record::TickOutput output{};
-  double angle_rad[3] = {};
-  float stiffness_N_per_m = 800;
-
-  explicit ArmRide(const device::LinkageLayout& layout)
-      : asset(file_with(layout)), cartesian(without_linkage()) {
-    CHECK_EQ(controller.open(asset.bytes()).rule, 0u);
-    CHECK(controller.linkage().is_open());
-  }
-  static const Asset& without_linkage() {
-    static const Asset part(file_of(part_sections()));
-    return part;
-  }
-  record::TickInput input_of(uint32_t tick) {
-    cartesian.fill(tick);
-    record::TickInput input = cartesian.input;
-    angles_of({input.encoder_counts[0] * 1e-5 + kAside_m, input.encoder_counts[1] * 1e-5,
-               input.encoder_counts[2] * 1e-5},
-              angle_rad);
-    put_counts(angle_rad, input);
-    if (tick == 2) {
-      input.command = 1 + static_cast<uint32_t>(params::kSceneX);
-      input.command_value = static_cast<float>(kAside_m);
-    }
-    if (tick == 3) {
-      input.command = 1 + static_cast<uint32_t>(params::kContactStiffness);
-      input.command_value = stiffness_N_per_m;
-    }
-    return input;
-  }
-  void step(uint32_t tick) {
-    const record::TickInput input = input_of(tick);
-    controller.tick(input, output);
-    cartesian.step();
-  }
-};
-
-}  // namespace
 
 TEST(ArmOfTheAsset_RendersTheForcesOfACartesianDevice) {
   ArmRide ride(arm(20));
@@ -318,41 +207,4 @@ TEST(DamagedLinkage_IsRefusedByItsRule) {
   static FullController controller;
   CHECK_EQ(controller.open(asset.bytes()).rule, uint16_t{707});
   CHECK_EQ(faults_when_enabled(controller), servo::kFaultAsset);
-}
-
-// What the motors carry of 50 g at the elbow and 30 g at the tip in the middle of a tick, with the
-// hand off the surface.
-TEST(CarriedWeight_IsTheGradientOfTheHeight) {
-  device::LinkageLayout layout = arm(2);
-  layout.elbow_mass_kg[0] = 0.05f;
-  layout.tip_mass_kg = 0.03f;
-  layout.gravity_mps2[2] = -9.81f;
-  layout.carried_share = 0.5f;
-  ArmRide ride(layout);
-  const auto energy_J = [](const double(&q)[3]) {
-    return 9.81 * (0.05 * kUpper_m * std::sin(q[1]) + 0.03 * tip_of(q).z);
-  };
-  uint32_t free_ticks = 0;
-  double before_rad[3] = {};
-  for (uint32_t tick = 0; tick < 3000; ++tick) {
-    ride.step(tick);
-    CHECK_EQ(ride.output.faults, 0u);
-    double q[3];
-    for (int k = 0; k < 3; ++k) {
-      q[k] = 1.5 * ride.angle_rad[k] - 0.5 * before_rad[k];
-      before_rad[k] = ride.angle_rad[k];
-    }
-    if (tick < 400 || size_of(ride.output.force_N) > 0) continue;
-    ++free_ticks;
-    for (int k = 0; k < 3; ++k) {
-      const double middle = q[k];
-      q[k] = middle + 1e-6;
-      const double after_J = energy_J(q);
-      q[k] = middle - 1e-6;
-      const double expected_Nm = (after_J - energy_J(q)) / 2e-6;
-      q[k] = middle;
-      CHECK_LE(std::fabs(static_cast<double>(ride.output.motor_N[k]) - expected_Nm), 1e-5);
-    }
-  }
-  CHECK_GE(free_ticks, 300u);
 }

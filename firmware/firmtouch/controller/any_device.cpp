@@ -13,6 +13,8 @@ using params::Values;
 
 float size(float a) { return __builtin_fabsf(a); }
 
+constexpr float kMinLeft_Nm = 0x1p-40f;  // no division by 0
+
 float at_most(float value, float most) { return value < most ? value : most; }
 
 }  // namespace
@@ -148,25 +150,28 @@ void AnyDevice::carry(const Values& values, const Push& push, const float* large
   }
 }
 
-// Torques may fall to 0 at once; away from it they rise by a share of the largest.
-void AnyDevice::allow_rise(const device::JointTorques& wanted, float tick_s,
-                           float (&most_Nm)[kMaxJoints]) const {
-  const device::LinkageLayout& layout = linkage_.layout();
-  for (uint32_t k = 0; k < kMaxJoints; ++k) {
-    const float largest_Nm = layout.max_torque_Nm[k];
-    const float rise_Nm = largest_Nm * at_most(tick_s / layout.torque_rise_s, 1.0f);
-    const bool same_side = (wanted.torque_Nm[k] < 0.0f) == (before_Nm_[k] < 0.0f);
-    const float from_Nm = same_side ? size(before_Nm_[k]) : 0.0f;
-    // A joint that the linkage does not have has a torque of 0, which any bound allows.
-    most_Nm[k] = k < layout.joints ? at_most(from_Nm + rise_Nm, largest_Nm) : 1.0f;
-  }
-}
-
+// Torques may fall to 0 at once; away from it they rise by a share of the largest. The force has
+// what is left beside what is held.
 bool AnyDevice::drive(const Values& values, const Push& push, const device::JointTorques& wanted,
-                      servo::GuardState& guard, record::TickOutput& output) {
-  float most_Nm[kMaxJoints];
-  allow_rise(wanted, values[params::kTickPeriod], most_Nm);
-  device::JointTorques rendered = limited(wanted, most_Nm);
+                      const float (&held_Nm)[kMaxJoints], servo::GuardState& guard,
+                      record::TickOutput& output) {
+  const device::LinkageLayout& layout = linkage_.layout();
+  const float* const largest_Nm = this->largest_Nm(push);
+  const float rise = at_most(values[params::kTickPeriod] / layout.torque_rise_s, 1.0f);
+  float low_Nm[kMaxJoints], high_Nm[kMaxJoints], left_Nm[kMaxJoints];
+  for (uint32_t k = 0; k < kMaxJoints; ++k) {
+    const float rise_Nm = layout.max_torque_Nm[k] * rise, before_Nm = before_Nm_[k];
+    high_Nm[k] = math::smaller(math::larger(before_Nm, 0.0f) + rise_Nm, largest_Nm[k]);
+    low_Nm[k] = -math::smaller(math::larger(-before_Nm, 0.0f) + rise_Nm, largest_Nm[k]);
+    const float left =
+        wanted.torque_Nm[k] < 0.0f ? held_Nm[k] - low_Nm[k] : high_Nm[k] - held_Nm[k];
+    // A joint that the linkage does not have has a torque of 0, which any bound allows.
+    left_Nm[k] = math::larger(left, kMinLeft_Nm);
+  }
+  device::JointTorques rendered = limited(wanted, left_Nm);
+  for (uint32_t k = 0; k < kMaxJoints; ++k)
+    rendered.torque_Nm[k] =
+        math::smaller(math::larger(rendered.torque_Nm[k] + held_Nm[k], low_Nm[k]), high_Nm[k]);
   if (push.cut) rendered = {};
   const bool passed =
       servo::guard_torques(guard, ceilings_, push.may_push, push.cut, rendered.torque_Nm);
@@ -185,16 +190,10 @@ bool AnyDevice::drive(const Values& values, const Push& push, const device::Join
 bool AnyDevice::push(const Values& values, const Push& push, servo::GuardState& guard,
                      record::TickOutput& output) {
   if (!linkage_.is_open()) return cartesian_.push(values, push, guard, output);
-  const float* const largest_Nm =
-      push.largest_Nm != nullptr ? push.largest_Nm : linkage_.layout().max_torque_Nm;
   float carrying_Nm[kMaxJoints] = {};
-  carry(values, push, largest_Nm, carrying_Nm);
-  device::TorqueLimits limits = linkage_.limits();
-  for (uint32_t k = 0; k < linkage_.layout().joints; ++k)
-    limits.max_torque_Nm[k] = largest_Nm[k] - size(carrying_Nm[k]);
-  device::JointTorques wanted = torques(pose_, limits, push.force_N);
-  for (uint32_t k = 0; k < kMaxJoints; ++k) wanted.torque_Nm[k] += carrying_Nm[k];
-  const bool passed = drive(values, push, wanted, guard, output);
+  carry(values, push, largest_Nm(push), carrying_Nm);
+  const device::JointTorques wanted = torques(pose_, linkage_.limits(), push.force_N);
+  const bool passed = drive(values, push, wanted, carrying_Nm, guard, output);
   const Vec3 force_N = push.force_N * rendered_.share;
   output.force_N[0] = force_N.x;
   output.force_N[1] = force_N.y;

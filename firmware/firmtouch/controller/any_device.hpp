@@ -39,7 +39,8 @@ class AnyDevice : public DevicePolicy {
   device::Reading read(const params::Values& values, const device::Sample& sample, bool clear);
   /// Torques of the force and, while the motors are on, of the linkage's own weight. Each joint
   /// stays within its largest torque, and none rises faster than from 0 to there in torque_rise_s.
-  /// Where torques are too large all are scaled alike; force_N of the record is what is left.
+  /// Where torques are too large those of the force are scaled alike; force_N of the record is what
+  /// is left.
   bool push(const params::Values& values, const Push& push, servo::GuardState& guard,
             record::TickOutput& output);
 
@@ -62,9 +63,11 @@ class AnyDevice : public DevicePolicy {
  protected:
   /// Of a linkage that was opened: the guard gets its ceilings.
   void take_ceilings();
-  /// The motors take the torques as far as rise, ceilings and guard allow.
+  /// The motors take the torques as far as rise, ceilings and guard allow: first `held_Nm`, each
+  /// joint's own, then those of a force, all scaled alike.
   bool drive(const params::Values& values, const Push& push, const device::JointTorques& wanted,
-             servo::GuardState& guard, record::TickOutput& output);
+             const float (&held_Nm)[device::kMaxJoints], servo::GuardState& guard,
+             record::TickOutput& output);
 
   /// Of the last sample.
   const float (&angle_rad() const)[device::kMaxJoints] { return angle_rad_; }
@@ -82,8 +85,9 @@ class AnyDevice : public DevicePolicy {
   bool is_stable(const params::Values& values, float stiffness_N_per_m,
                  params::Index damping) const;
   uint32_t refused_wall() const;
-  void allow_rise(const device::JointTorques& wanted, float tick_s,
-                  float (&most_Nm)[device::kMaxJoints]) const;
+  const float* largest_Nm(const Push& push) const {
+    return push.largest_Nm != nullptr ? push.largest_Nm : linkage_.layout().max_torque_Nm;
+  }
 
   CartesianDevice cartesian_;
   servo::TorqueCeilings ceilings_;  // the guard's own copy

@@ -12,6 +12,8 @@ uint32_t state_bits(const device::HomingState& state, bool is_driven) {
   return record::kStateNotHomed | failed << record::kStateHomingFaultShift;
 }
 
+constexpr float kNoTorques_Nm[device::kMaxJoints] = {};
+
 bool is_zero(const float (&torque_Nm)[record::kAxes]) {
   for (const float each : torque_Nm)
     if (each < 0.0f || each > 0.0f) return false;
@@ -72,7 +74,7 @@ bool HomedDevice::push_home(const Values& values, const Push& push, servo::Guard
     state_ = {};
   }
   output.state |= state_bits(state_, push.may_push);
-  return drive(values, push, wanted, guard, output);
+  return drive(values, push, wanted, kNoTorques_Nm, guard, output);
 }
 
 }  // namespace firmtouch
