@@ -16,8 +16,9 @@ Way ProxyMove::way() const {
   Way way;
   way.from_m = proxy_.position_m;
   way.along_m = along_m_;
-  // A place on the way rounds a part of it and their sum, each by 2^-24 of what it gives.
-  way.radius_m = needed_m() + 0x1p-23f * (math::length(way.from_m) + math::length(along_m_));
+  // A place on the way rounds a part of it and their sum, each by 2^-24 of what it gives; a pose
+  // turns the way, six roundings more.
+  way.radius_m = needed_m() + 0x1p-23f * (math::length(way.from_m) + 4.0f * math::length(along_m_));
   for (uint32_t n = 0; n < 3 && n < proxy_.active.count; ++n) {
     const uint32_t i = proxy_.active.plane[n];
     if (i >= proxy_.feature_count) continue;
