@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "device/line_reader.hpp"
+#include "firmtouch/params/table.hpp"
 #include "host_sim/device/linkage_body.hpp"
 
 namespace firmtouch::host_sim {
@@ -16,7 +17,7 @@ constexpr double kSnap = 0.04, kRelease = 0.12;
 constexpr double kPressDeep = 0.045;   // depth of the hand's aim below the surface
 constexpr double kMaxPress_m = 0.016;  // 4 N on the default spring and grip
 constexpr double kContact_N_per_m = 1200, kGuide_N_per_m = 400;
-constexpr double kForceLimit_N = 8;    // of the parameter table
+constexpr auto kForceLimit_N = static_cast<double>(params::kTable[params::kForceLimit].initial);
 constexpr double kStableShare = 0.95;  // of the stiffest wall that a linkage renders
 constexpr double kHold_s = 0.4, kFirstPress_s = 1.6, kLastPress_s = 2;
 constexpr double kRoundTime_s = 4.0;      // once along the guide

@@ -55,23 +55,23 @@ struct SmallHull {
   /// Puts a copy of what `id` reads behind the last id: a number that would do there.
   /// Result: the id behind the last one.
   uint32_t add_origin(uint32_t id) {
-    static uint8_t copy[1024];
-    const uint32_t bytes_of = sections.origins.size();
-    CHECK(bytes_of + 2 <= sizeof copy);
-    __builtin_memcpy(copy, sections.origins.data(), bytes_of);
-    __builtin_memcpy(copy + bytes_of, copy + 2 * id, 2);
-    sections.origins = {copy, bytes_of};
-    return bytes_of / 2;
+    static uint8_t memory[1024];
+    return add_copy(sections.origins, memory, 2, id);
   }
   /// The same of the mesh's triangles.
   uint32_t add_triangle(uint32_t triangle) {
-    alignas(4) static uint8_t copy[4096];
-    const uint32_t bytes_of = sections.triangles16.size();
-    CHECK(bytes_of + 6 <= sizeof copy);
-    __builtin_memcpy(copy, sections.triangles16.data(), bytes_of);
-    __builtin_memcpy(copy + bytes_of, copy + 6 * triangle, 6);
-    sections.triangles16 = {copy, bytes_of};
-    return bytes_of / 6;
+    alignas(4) static uint8_t memory[4096];
+    return add_copy(sections.triangles16, memory, 6, triangle);
+  }
+  template <class Section, uint32_t kBytes>
+  static uint32_t add_copy(Section& section, uint8_t (&memory)[kBytes], uint32_t each,
+                           uint32_t copied) {
+    const uint32_t bytes_of = section.size();
+    CHECK(bytes_of + each <= kBytes);
+    __builtin_memcpy(memory, section.data(), bytes_of);
+    __builtin_memcpy(memory + bytes_of, memory + each * copied, each);
+    section = {memory, bytes_of};
+    return bytes_of / each;
   }
 
   // Parts of the base hull, in the layout's order.
