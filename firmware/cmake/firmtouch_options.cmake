@@ -133,19 +133,18 @@ function(firmtouch_firmware target)
 endfunction()
 
 # firmtouch_hosted(TARGET [LEVEL]): the flags of tools, host_sim and host tests. LEVEL: -O2, or -O1 for what waits for its
-# compiler longer than it runs. With FIRMTOUCH_PRECOMPILE the standard headers are read once per level.
+# compiler longer than it runs.
 function(firmtouch_hosted target)
   set(level -O2)
   if(ARGC GREATER 1)
     set(level ${ARGV1})
-  endif()
-  string(REPLACE - _ standard firmtouch_standard${level})
-  if(TARGET ${standard} AND NOT target STREQUAL standard)
-    target_precompile_headers(${target} REUSE_FROM ${standard})
   endif()
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:${level}> ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_ROUNDING_FLAGS}
                                            ${FIRMTOUCH_NATIVE_FLAGS} ${FIRMTOUCH_WARNING_FLAGS} ${FIRMTOUCH_HOSTED_FLAGS})
   target_compile_definitions(${target} PRIVATE ${FIRMTOUCH_ARCH_DEFINITION})
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  if(FIRMTOUCH_TOGETHER)
+    firmtouch_together(${target})
+  endif()
 endfunction()

@@ -20,10 +20,10 @@ namespace {
 constexpr double kDegrees = 57.295779513082323;
 
 // Mass, own damping and period of the free rows; each at B of 0, a little and much.
-struct Axis {
+struct FreeAxis {
   double mass_kg, viscous, period_s, damping[3];
 };
-constexpr Axis kAxes[] = {
+constexpr FreeAxis kAxes[] = {
     {.050, .2, 1e-3, {0, .1, 2}},    {.050, .2, .25e-3, {0, .1, 2}}, {.075, .5, 1e-3, {0, .25, 5}},
     {.075, .5, .25e-3, {0, .25, 5}}, {.075, .5, .1e-3, {0, .25, 5}}, {.200, 1., 1e-3, {0, .5, 10}},
 };
@@ -36,11 +36,11 @@ constexpr Held kHands[] = {{.05, 2, 100}, {.15, 6, 700}};
 // 18 rows without delay, 6 of one sample, 4 of two.
 std::vector<SampledWall> free_rows() {
   std::vector<SampledWall> rows;
-  for (const Axis& axis : kAxes)
+  for (const FreeAxis& axis : kAxes)
     for (const double damping : axis.damping)
       rows.push_back({axis.mass_kg, axis.viscous, axis.period_s, damping, 0, 0, 0, 0});
   for (uint32_t i = 0; i < 10; ++i) {
-    const Axis& axis = kAxes[i % 6];
+    const FreeAxis& axis = kAxes[i % 6];
     rows.push_back(
         {axis.mass_kg, axis.viscous, axis.period_s, axis.damping[2], 1 + i / 6, 0, 0, 0});
   }
@@ -49,7 +49,7 @@ std::vector<SampledWall> free_rows() {
 
 std::vector<SampledWall> held_rows() {
   std::vector<SampledWall> rows;
-  for (const Axis& axis : kAxes)
+  for (const FreeAxis& axis : kAxes)
     for (const Held& hand : kHands)
       rows.push_back({axis.mass_kg, axis.viscous, axis.period_s, axis.damping[1],
                       static_cast<uint32_t>(rows.size() / 2 % 2), hand.mass_kg, hand.damping,

@@ -10,20 +10,20 @@
 namespace firmtouch::controller_test {
 
 constexpr double kUpper_m = 0.3, kLower_m = 0.25, kAside_m = 0.35;
-constexpr double kCounts = 1e7;  // of a radian
+constexpr double kCountsPerRad = 1e7;  // of a radian
 
-struct Point {
+struct Tip {
   double x, y, z;
 };
 
 // Of a turntable, a shoulder and an elbow, by a product of rotations.
-inline Point tip_of(const double (&q)[3]) {
+inline Tip tip_of(const double (&q)[3]) {
   const double out = kUpper_m * std::cos(q[1]) + kLower_m * std::cos(q[1] + q[2]);
   return {out * std::cos(q[0]), out * std::sin(q[0]),
           kUpper_m * std::sin(q[1]) + kLower_m * std::sin(q[1] + q[2])};
 }
 
-inline void angles_of(const Point& p, double (&q)[3]) {
+inline void angles_of(const Tip& p, double (&q)[3]) {
   const double out = std::hypot(p.x, p.y), far2 = out * out + p.z * p.z;
   q[0] = std::atan2(p.y, p.x);
   q[2] = -std::acos((far2 - kUpper_m * kUpper_m - kLower_m * kLower_m) / (2 * kUpper_m * kLower_m));
@@ -36,9 +36,9 @@ inline double torque_of(double (&q)[3], int joint, const float (&force_N)[3]) {
   constexpr double kStep = 1e-6;
   const double middle = q[joint];
   q[joint] = middle + kStep;
-  const Point after = tip_of(q);
+  const Tip after = tip_of(q);
   q[joint] = middle - kStep;
-  const Point before = tip_of(q);
+  const Tip before = tip_of(q);
   q[joint] = middle;
   return (static_cast<double>(force_N[0]) * (after.x - before.x) +
           static_cast<double>(force_N[1]) * (after.y - before.y) +
@@ -46,14 +46,14 @@ inline double torque_of(double (&q)[3], int joint, const float (&force_N)[3]) {
          (2 * kStep);
 }
 
-inline device::LinkageLayout arm(float max_torque_Nm) {
+inline device::LinkageLayout arm_with(float max_torque_Nm) {
   device::LinkageLayout l = {};
   l.kind = device::kSerialArm;
   l.joints = 3;
   l.length_m[0] = static_cast<float>(kUpper_m);
   l.length_m[1] = static_cast<float>(kLower_m);
   for (uint32_t k = 0; k < 3; ++k) {
-    l.joint[k] = {static_cast<float>(kCounts), 0, -3, 3};
+    l.joint[k] = {static_cast<float>(kCountsPerRad), 0, -3, 3};
     l.max_torque_Nm[k] = max_torque_Nm;
   }
   l.torque_rise_s = 0.002f;
@@ -71,7 +71,7 @@ inline std::vector<uint8_t> file_with(const device::LinkageLayout& layout) {
 
 inline void put_counts(const double (&q)[3], record::TickInput& input) {
   for (int k = 0; k < 3; ++k)
-    input.encoder_counts[k] = static_cast<int32_t>(std::lround(q[k] * kCounts));
+    input.encoder_counts[k] = static_cast<int32_t>(std::lround(q[k] * kCountsPerRad));
 }
 
 // The ride's tool, held by the arm, with the part aside of its base.

@@ -12,7 +12,7 @@ namespace {
 
 // An arm with 50 g at the elbow and 30 g at the tip, which its motors carry.
 device::LinkageLayout heavy_arm(float max_torque_Nm) {
-  device::LinkageLayout layout = arm(max_torque_Nm);
+  device::LinkageLayout layout = arm_with(max_torque_Nm);
   layout.elbow_mass_kg[0] = 0.05f;
   layout.tip_mass_kg = 0.03f;
   layout.gravity_mps2[2] = -9.81f;

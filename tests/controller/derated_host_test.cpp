@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kCounts = 1e6;  // of a radian
 constexpr double kLargest_Nm = 0.5, kContinuous_Nm = 0.2, kTime_s = 1, kTick_s = 1e-3;
-constexpr double kAside_m = 0.35;
+constexpr double kTipAside_m = 0.35;
 
 struct Section {
   device::LinkageLayout linkage;
@@ -99,11 +99,11 @@ struct Rig : JointsRig<OfController> {
     const double(&at_m)[3] = deepest();
     above_m = is_deep ? std::max(above_m - .0005, 0.) : std::min(above_m + .0005, .05);
     double angle_rad[3];
-    angles_of(at_m[0] + kAside_m, at_m[1], at_m[2] + above_m, angle_rad);
+    angles_of(at_m[0] + kTipAside_m, at_m[1], at_m[2] + above_m, angle_rad);
     for (int k = 0; k < 3; ++k)
       input.encoder_counts[k] = static_cast<int32_t>(std::lround(angle_rad[k] * kCounts));
     const bool places = input.tick == 2;
-    input.command_value = static_cast<float>(kAside_m);
+    input.command_value = static_cast<float>(kTipAside_m);
     double before_Nm[3];
     for (int k = 0; k < 3; ++k) before_Nm[k] = static_cast<double>(output.motor_N[k]);
     Base::step(is_enabled && input.tick > 3 ? record::kFlagEnable : 0,

@@ -12,7 +12,7 @@ using namespace firmtouch;  // NOLINT: a test file
 using namespace controller_test;
 
 TEST(ArmOfTheAsset_RendersTheForcesOfACartesianDevice) {
-  ArmRide ride(arm(20));
+  ArmRide ride(arm_with(20));
   uint32_t pushes = 0, different = 0;
   for (uint32_t tick = 0; tick < 3000; ++tick) {
     ride.step(tick);
@@ -36,7 +36,7 @@ TEST(ArmOfTheAsset_RendersTheForcesOfACartesianDevice) {
 // 100 g, 1 N s/m, 1 ms: 2,000 (1 - 0.005) / (1 + 0.005) = 1,980 N/m, whatever device_damping says.
 TEST(Arm_WallStifferThanStable_IsRefusedOrForced) {
   for (const bool is_forced : {false, true}) {
-    device::LinkageLayout layout = arm(20);
+    device::LinkageLayout layout = arm_with(20);
     layout.least_mass_kg = 0.1f;
     if (is_forced) layout.flags |= device::kFlagForcedWalls;
     for (const float stiffness : {1975.0f, 1985.0f}) {
@@ -61,7 +61,7 @@ TEST(Arm_WallStifferThanStable_IsRefusedOrForced) {
 }
 
 TEST(Arm_StiffWall_NeedsEnablingAnew) {
-  device::LinkageLayout layout = arm(20);
+  device::LinkageLayout layout = arm_with(20);
   layout.least_mass_kg = 0.1f;
   ArmRide ride(layout);
   uint32_t on = 0;
@@ -84,7 +84,7 @@ TEST(Arm_StiffWall_NeedsEnablingAnew) {
 }
 
 TEST(WeakJoints_KeepTheForcesDirectionAndTheirCeilings) {
-  ArmRide strong(arm(20)), weak(arm(0.3f));
+  ArmRide strong(arm_with(20)), weak(arm_with(0.3f));
   uint32_t limited = 0;
   for (uint32_t tick = 0; tick < 3000; ++tick) {
     strong.step(tick), weak.step(tick);
@@ -103,7 +103,7 @@ TEST(WeakJoints_KeepTheForcesDirectionAndTheirCeilings) {
 }
 
 TEST(Arm_AnyInput_StaysFiniteAndWithinItsCeilings) {
-  ArmRide ride(arm(0.3f));
+  ArmRide ride(arm_with(0.3f));
   test::Xorshift random(11);
   float before_Nm[3] = {};
   for (uint32_t tick = 0; tick < 20000; ++tick) {
@@ -131,7 +131,7 @@ TEST(Arm_AnyInput_StaysFiniteAndWithinItsCeilings) {
 
 // 4 N m would be wanted within a tick or two.
 TEST(StiffWall_TorquesRiseNoFasterThanTheAssetAllows) {
-  device::LinkageLayout layout = arm(3);
+  device::LinkageLayout layout = arm_with(3);
   layout.torque_rise_s = 0.02f;
   ArmRide ride(layout);
   ride.stiffness_N_per_m = 20000;
@@ -152,20 +152,20 @@ TEST(StiffWall_TorquesRiseNoFasterThanTheAssetAllows) {
 }
 
 TEST(Arm_BeyondItsRange_OrTooFast_IsAFault) {
-  const device::LinkageLayout layout = arm(1);
+  const device::LinkageLayout layout = arm_with(1);
   ArmRide beyond(layout), fast(layout);
   for (uint32_t tick = 0; tick < 300; ++tick) beyond.step(tick), fast.step(tick);
   record::TickInput input = beyond.input_of(300);
   for (uint32_t tick = 300; tick < 900; ++tick) {
     input = beyond.input_of(tick);
-    input.encoder_counts[0] += static_cast<int32_t>((tick - 300) * 0.008 * kCounts);
+    input.encoder_counts[0] += static_cast<int32_t>((tick - 300) * 0.008 * kCountsPerRad);
     beyond.controller.tick(input, beyond.output);
   }
   CHECK_NE(beyond.output.faults & servo::kFaultWorkspace, 0u);
   // 20 rad/s at 0.35 m are 7 m/s, which the joint may turn at and the tip may not.
   for (uint32_t tick = 300; tick < 340; ++tick) {
     input = fast.input_of(tick);
-    input.encoder_counts[0] += static_cast<int32_t>((tick - 300) * 0.02 * kCounts);
+    input.encoder_counts[0] += static_cast<int32_t>((tick - 300) * 0.02 * kCountsPerRad);
     fast.controller.tick(input, fast.output);
   }
   CHECK_NE(fast.output.faults & servo::kFaultEncoder, 0u);
@@ -177,10 +177,10 @@ TEST(Arm_BeyondItsRange_OrTooFast_IsAFault) {
 TEST(Arm_TipFasterThanMaxSpeed_IsAFault) {
   constexpr double kLimit_mps = 1.5, kFull = 150;  // ticks
   for (const double share : std::initializer_list<double>{0.98, 1.02}) {
-    ArmRide ride(arm(1));
+    ArmRide ride(arm_with(1));
     for (uint32_t tick = 0; tick < 300; ++tick) ride.step(tick);
     record::TickInput input = ride.input_of(300);
-    const Point tip = tip_of(ride.angle_rad);
+    const Tip tip = tip_of(ride.angle_rad);
     const double step_rad = share * kLimit_mps * 1e-3 / std::hypot(tip.x, tip.y);
     const double from_rad = ride.angle_rad[0];
     input.command = 1 + static_cast<uint32_t>(params::kMaxSpeed);
@@ -194,14 +194,14 @@ TEST(Arm_TipFasterThanMaxSpeed_IsAFault) {
       input.clock_us += 1000;
       turned_rad += step_rad * std::min(tick / kFull, 1.0);
       input.encoder_counts[0] =
-          static_cast<int32_t>(std::lround((from_rad + turned_rad) * kCounts));
+          static_cast<int32_t>(std::lround((from_rad + turned_rad) * kCountsPerRad));
     }
     CHECK_EQ(ride.output.faults, share > 1 ? servo::kFaultEncoder : 0u);
   }
 }
 
 TEST(DamagedLinkage_IsRefusedByItsRule) {
-  device::LinkageLayout layout = arm(1);
+  device::LinkageLayout layout = arm_with(1);
   layout.length_m[1] = 0;
   const Asset asset(file_with(layout));
   static FullController controller;

@@ -22,7 +22,7 @@ using namespace firmtouch;
 
 namespace {
 
-using MeshController = Controller<Surfaces<MeshSurface>>;
+using OnlyMesh = Controller<Surfaces<MeshSurface>>;
 using MeshAndGuide = Controller<Surfaces<MeshSurface>, CurveGuide>;
 using Trusting =
     Controller<Surfaces<FullMesh>, CurveGuide, CartesianDevice, firmtouch::asset::Trusted>;
@@ -120,7 +120,7 @@ TEST(SelectedGeometry_OthersDoNotCount) {
 }
 
 TEST(MeshController_RejectsAnAssetWithAGuide_AndKeepsTheMotorsOff) {
-  static MeshController controller;
+  static OnlyMesh controller;
   CHECK_EQ(controller.open(both().bytes()).rule, uint16_t{kRuleNeedsGuide});
   CHECK_EQ(faults_when_enabled(controller), servo::kFaultAsset);
 }
@@ -128,7 +128,7 @@ TEST(MeshController_RejectsAnAssetWithAGuide_AndKeepsTheMotorsOff) {
 TEST(MeshController_HasTheSameBitsAsTheFullOne) {
   const Asset part(file_of(part_sections()));
   const record::TickOutput full = last_of_ride<FullController>(part);
-  const record::TickOutput mesh = last_of_ride<MeshController>(part);
+  const record::TickOutput mesh = last_of_ride<OnlyMesh>(part);
   CHECK_EQ(std::memcmp(&full, &mesh, sizeof full), 0);
 }
 
@@ -140,7 +140,7 @@ TEST(MeshAndGuide_HasTheSameBitsAsTheFullOne) {
 
 TEST(Materials_AreProvenBeforeATick_AndNeedTheirPart) {
   static Controller<Surfaces<MaterialMesh>> controller;
-  static MeshController without;
+  static OnlyMesh without;
   const auto part_of = [](uint8_t number) {
     std::vector<tools::Section> sections = part_sections();
     mesh::View view;
@@ -169,9 +169,9 @@ TEST(ObjectsController_WithoutMaterialsHasTheSameBitsAsTheFullOne) {
 
 TEST(PartialTable_HasTheRowsOfItsPartsInTheFullTablesOrder) {
   CHECK_EQ(FullController::kTable.size(), uint32_t{params::kCount});
-  CHECK_LE(MeshController::kTable.size(), params::kCount - 15u);
+  CHECK_LE(OnlyMesh::kTable.size(), params::kCount - 15u);
   uint32_t row = 0;
-  for (const params::Entry& entry : MeshController::kTable) {
+  for (const params::Entry& entry : OnlyMesh::kTable) {
     while (row < params::kCount && params::kTable[row].number != entry.number) ++row;
     CHECK_LE(row + 1, uint32_t{params::kCount});
     CHECK_EQ(std::strcmp(params::kTable[row].name, entry.name), 0);

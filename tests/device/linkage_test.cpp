@@ -25,9 +25,9 @@ using math::Vec3;
 namespace {
 
 constexpr float kQuarter = 1.5707964f;
-const FiveBar kFiveBar{.025f, {.063f, .063f}, {.075f, .075f}, true};
+const FiveBar kFiveBarLinks{.025f, {.063f, .063f}, {.075f, .075f}, true};
 const SerialArm kArm{3, {.13f, .12f}, .02f, .1f, false};
-const Delta kDelta{{.06f, .06f, .06f}, {.103f, .103f, .103f}, .038f, .021f, .0045f, true};
+const Delta kDeltaLinks{{.06f, .06f, .06f}, {.103f, .103f, .103f}, .038f, .021f, .0045f, true};
 const TorqueLimits kLimits{.1f, .05f, {.2f, .3f, .15f}};
 
 float size(float a) { return a < 0.0f ? -a : a; }
@@ -45,9 +45,9 @@ void check_near(Vec3 a, Vec3 b, float most) {
 // Poses of all linkages at these angles.
 template <class Take>
 void each_pose(const float (&angle_rad)[3], const Take& take) {
-  take(pose_of(kFiveBar, angle_rad));
+  take(pose_of(kFiveBarLinks, angle_rad));
   take(pose_of(kArm, angle_rad));
-  take(pose_of(kDelta, angle_rad));
+  take(pose_of(kDeltaLinks, angle_rad));
 }
 
 Pose isotropic(float condition) {
@@ -68,14 +68,14 @@ const float kNan = test::nan_value();
 }  // namespace
 
 TEST(FiveBar_SymmetricPose_HasItsTipOnTheAxis) {
-  const Pose pose = pose_of(kFiveBar, {2 * kQuarter - 1.0f, 1.0f, 0});
+  const Pose pose = pose_of(kFiveBarLinks, {2 * kQuarter - 1.0f, 1.0f, 0});
   CHECK(pose.is_reachable);
   CHECK_LE(size(pose.position_m.x), 1e-8f);
   CHECK_GT(pose.position_m.y, .063f);
   // Mirrored joints move the tip in mirrored directions.
   CHECK_LE(size(pose.column_m[0].x - pose.column_m[1].x), 1e-7f);
   CHECK_LE(size(pose.column_m[0].y + pose.column_m[1].y), 1e-7f);
-  FiveBar other = kFiveBar;
+  FiveBar other = kFiveBarLinks;
   other.is_tip_left = false;
   CHECK_LT(pose_of(other, {2 * kQuarter - 1.0f, 1.0f, 0}).position_m.y, .06f);
 }
@@ -91,19 +91,19 @@ TEST(SerialArm_RightAngles_AreAtTheSumsOfTheLinks) {
 }
 
 TEST(Delta_EqualAngles_HaveTheTipOnZ) {
-  const Pose pose = pose_of(kDelta, {.5f, .5f, .5f});
+  const Pose pose = pose_of(kDeltaLinks, {.5f, .5f, .5f});
   CHECK(pose.is_reachable);
   CHECK_LE(size(pose.position_m.x), 3e-8f);
   CHECK_LE(size(pose.position_m.y), 3e-8f);
   CHECK_GT(pose.position_m.z, .06f);
-  Delta below = kDelta;
+  Delta below = kDeltaLinks;
   below.is_tip_above = false;
   CHECK_LT(pose_of(below, {.5f, .5f, .5f}).position_m.z, 0.0f);
 }
 
 // Elbows 0.151 m apart of 0.150 m that the distal links reach.
 TEST(FiveBar_ElbowsOutOfReach_GiveNoJacobianAndNoTorque) {
-  const Pose pose = pose_of(kFiveBar, {2 * kQuarter, 0, 0});
+  const Pose pose = pose_of(kFiveBarLinks, {2 * kQuarter, 0, 0});
   CHECK(!pose.is_reachable);
   CHECK_EQ(pose.reciprocal_condition, 0.0f);
   CHECK_LE(size(pose.position_m.x), 1e-7f);
@@ -196,22 +196,26 @@ TEST(TipVelocity_IsTheJacobianTimesTheRates) {
 
 TEST(Linkages_BadLengthsOffsetsAndJoints_BreakARuleByName) {
   using namespace device;  // NOLINT: rules
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.proximal_m[1] = 0; }), kRuleLinkLength * 100u + 1);
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.distal_m[1] = kNan; }), kRuleLinkLength * 100u + 3);
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.base_m = -.01f; }), kRuleOffset * 100u);
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.base_m = .3f; }), kRuleNeverCloses * 100u);
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.distal_m[0] = .3f; }), kRuleNeverCloses * 100u);
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.proximal_m[0] = .3f; }), kRuleNeverCloses * 100u);
-  CHECK_EQ(broken(kFiveBar, [](FiveBar& b) { b.proximal_m[1] = .3f; }), kRuleNeverCloses * 100u);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.proximal_m[1] = 0; }),
+           kRuleLinkLength * 100u + 1);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.distal_m[1] = kNan; }),
+           kRuleLinkLength * 100u + 3);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.base_m = -.01f; }), kRuleOffset * 100u);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.base_m = .3f; }), kRuleNeverCloses * 100u);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.distal_m[0] = .3f; }), kRuleNeverCloses * 100u);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.proximal_m[0] = .3f; }),
+           kRuleNeverCloses * 100u);
+  CHECK_EQ(broken(kFiveBarLinks, [](FiveBar& b) { b.proximal_m[1] = .3f; }),
+           kRuleNeverCloses * 100u);
   CHECK_EQ(broken(kArm, [](SerialArm& a) { a.joints = 4; }), kRuleJointCount * 100u);
   CHECK_EQ(broken(kArm, [](SerialArm& a) { a.joints = 2; }), kRuleOffset * 100u);
   CHECK_EQ(broken(kArm, [](SerialArm& a) { a.link_m[1] = -.1f; }), kRuleLinkLength * 100u + 1);
   CHECK_EQ(broken(kArm, [](SerialArm& a) { a.height_m = kNan; }), kRuleOffset * 100u + 1);
-  CHECK_EQ(broken(kDelta, [](Delta& d) { d.upper_m[2] = 11; }), kRuleLinkLength * 100u + 2);
-  CHECK_EQ(broken(kDelta, [](Delta& d) { d.lower_m[0] = 0; }), kRuleLinkLength * 100u + 3);
-  CHECK_EQ(broken(kDelta, [](Delta& d) { d.side_m = kNan; }), kRuleOffset * 100u + 2);
-  CHECK_EQ(broken(kDelta, [](Delta& d) { d.side_m = .2f; }), kRuleNeverCloses * 100u);
-  CHECK_EQ(broken(kDelta, [](Delta& d) { d.base_radius_m = .3f; }), kRuleNeverCloses * 100u);
+  CHECK_EQ(broken(kDeltaLinks, [](Delta& d) { d.upper_m[2] = 11; }), kRuleLinkLength * 100u + 2);
+  CHECK_EQ(broken(kDeltaLinks, [](Delta& d) { d.lower_m[0] = 0; }), kRuleLinkLength * 100u + 3);
+  CHECK_EQ(broken(kDeltaLinks, [](Delta& d) { d.side_m = kNan; }), kRuleOffset * 100u + 2);
+  CHECK_EQ(broken(kDeltaLinks, [](Delta& d) { d.side_m = .2f; }), kRuleNeverCloses * 100u);
+  CHECK_EQ(broken(kDeltaLinks, [](Delta& d) { d.base_radius_m = .3f; }), kRuleNeverCloses * 100u);
 }
 
 TEST(TorqueLimits_BadValues_BreakARuleByName) {

@@ -31,7 +31,7 @@ Bytes counted(uint32_t from) {
 void* (*volatile copy)(void* __restrict, const void* __restrict, size_t) = memcpy;
 void* (*volatile move)(void*, const void*, size_t) = memmove;
 void* (*volatile fill)(void*, int, size_t) = memset;
-int (*volatile compare)(const void*, const void*, size_t) = memcmp;
+int (*volatile compare_bytes)(const void*, const void*, size_t) = memcmp;
 
 }  // namespace
 
@@ -80,8 +80,8 @@ TEST(Memset_WritesLowByte_AndNothingElse) {
 TEST(Memcmp_OrdersByFirstDifferentByte_Unsigned) {
   const uint8_t low[] = {1, 2, 0x7F, 9};
   const uint8_t high[] = {1, 2, 0x80, 0};
-  CHECK_LT(compare(low, high, 4), 0);
-  CHECK_GT(compare(high, low, 4), 0);
-  CHECK_EQ(compare(low, high, 2), 0);
-  CHECK_EQ(compare(low, high, 0), 0);
+  CHECK_LT(compare_bytes(low, high, 4), 0);
+  CHECK_GT(compare_bytes(high, low, 4), 0);
+  CHECK_EQ(compare_bytes(low, high, 2), 0);
+  CHECK_EQ(compare_bytes(low, high, 0), 0);
 }

@@ -99,7 +99,7 @@ struct BoxedCube {
 };
 
 // Points within two half sides of the cube's centre.
-class Random {
+class RandomLeaf {
  public:
   math::Vec3 point() {
     const float x = next(), y = next();
@@ -131,7 +131,7 @@ TEST(BoxesOfLeavesChangeNoBitOfACubesAnswers) {
   CHECK(mesh::open(cube.sections(), with).ok());
   constexpr uint32_t kPoints = 600;
   query::ProbePoint points[kPoints];
-  Random random;
+  RandomLeaf random;
   for (query::ProbePoint& point : points) {
     const math::Vec3 p = random.point();
     point = {p.x, p.y, p.z};

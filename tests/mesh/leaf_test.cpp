@@ -7,7 +7,8 @@
 
 namespace {
 
-using namespace mesh_test;  // NOLINT: a test file
+using namespace firmtouch;  // NOLINT: a test file
+using namespace mesh_test;  // NOLINT
 
 struct Compared {
   uint32_t differ = 0, improved = 0;
@@ -26,11 +27,11 @@ TEST(ExcludedTrianglesAndShapes_ChangeNoBitOfALeaf) {
     all.slack_m2 = mesh::Nearer::slack_m2(longest_edge_m(leaf));
     all.vertices = leaf.vertices;
     all.triangles = leaf.triangles;
-    const mesh::Foot any = closest_on(leaf, next_random() % kTriangles);
+    const mesh::Foot any = closest_on(leaf, random_bits() % kTriangles);
     all.best.distance2_m2 = turn % 3 == 0 ? FLT_MAX : any.distance2_m2;
     mesh::Sought nearer = all;
     const uint32_t count = 1 + turn % 7;
-    const uint32_t child = mesh::make_leaf(next_random() % (kTriangles - count + 1), count);
+    const uint32_t child = mesh::make_leaf(random_bits() % (kTriangles - count + 1), count);
     mesh::Sought by_shapes = all, nearer_by_shapes = all;
     mesh::TriangleShape shapes[kTriangles];
     for (uint32_t t = 0; t < kTriangles; ++t) shapes[t] = shape_at(leaf, t);

@@ -6,21 +6,18 @@
 #include "firmtouch/mesh/leaf.hpp"
 #include "firmtouch/mesh/triangle_shape.hpp"
 
-namespace mesh_test {
-
-namespace math = firmtouch::math;
-namespace mesh = firmtouch::mesh;
+namespace firmtouch::mesh_test {
 
 inline uint32_t g_seed = 7;
-inline uint32_t next_random() {
+inline uint32_t random_bits() {
   g_seed ^= g_seed << 13, g_seed ^= g_seed >> 17, g_seed ^= g_seed << 5;
   return g_seed;
 }
-inline float unit() { return static_cast<float>(next_random() >> 8) * 0x1p-23f - 1.0f; }
+inline float unit() { return static_cast<float>(random_bits() >> 8) * 0x1p-23f - 1.0f; }
 // Few values, so that regions' borders, ties and zeros of both signs come often.
 inline float coarse() {
   const float values[] = {-1.0f, -0.5f, -0.0f, 0.0f, 0.5f, 1.0f, 2.0f, 0x1p-70f};
-  return values[next_random() & 7u];
+  return values[random_bits() & 7u];
 }
 inline float coordinate(bool is_coarse) { return is_coarse ? coarse() : unit(); }
 
@@ -35,7 +32,7 @@ struct Leaf {
     for (mesh::Vertex& v : vertices)
       v = {coordinate(is_coarse), coordinate(is_coarse), coordinate(is_coarse)};
     for (mesh::Triangle<uint16_t>& t : triangles)
-      for (uint16_t& corner : t.corner) corner = static_cast<uint16_t>(next_random() % kVertices);
+      for (uint16_t& corner : t.corner) corner = static_cast<uint16_t>(random_bits() % kVertices);
     p_m = {coordinate(is_coarse) * 2.0f, coordinate(is_coarse), coordinate(is_coarse)};
     if (turn % 8 == 1) vertices[1] = vertices[0];  // two triangles that tie
     if (turn % 8 == 3) p_m.z = 50.0f;
@@ -103,4 +100,4 @@ inline bool same(const mesh::Best& a, const mesh::Best& b) {
          a.triangle == b.triangle && a.slot == b.slot && a.feature == b.feature;
 }
 
-}  // namespace mesh_test
+}  // namespace firmtouch::mesh_test

@@ -20,13 +20,13 @@ namespace {
 
 constexpr float kRadius_m = 0.002f;
 
-struct Rig {
+struct HullRig {
   tools::Surface surface = tools::make_part(1, 3000), of_base_hull;
   std::vector<tools::Section> sections;
   mesh::View view;
   hull::View hull_view;
   scene::MeshObject object;
-  explicit Rig(uint32_t faces = 400) {
+  explicit HullRig(uint32_t faces = 400) {
     tools::MeshReport report;
     sections = tools::bake_mesh(surface, "part", {}, report);
     CHECK(report.problem.empty());
@@ -45,15 +45,15 @@ struct Rig {
   }
 };
 
-const Rig& rig() {
-  static const Rig made;
+const HullRig& hull_rig() {
+  static const HullRig made;
   return made;
 }
 
 // Along the surface, into it and off it again.
 std::vector<math::Vec3> way(int count) {
   std::vector<math::Vec3> points;
-  const mesh::View& view = rig().view;
+  const mesh::View& view = hull_rig().view;
   for (int i = 0; i < count; ++i) {
     const uint32_t at = static_cast<uint32_t>(i / 40) * 211u % view.vertices().size();
     const math::Vec3 v = view.vertex(at);
@@ -95,10 +95,11 @@ TEST(BudgetExhausted_BaseHullContactIsEarlyNeverLate) {
     for (const math::Vec3 p_m : way(1200)) {
       firmtouch::test::note("point", ++i);
       mesh::Hint none;
-      const mesh::Closest truth = mesh::closest_point(rig().view, p_m, query::kUnlimited, none);
+      const mesh::Closest truth =
+          mesh::closest_point(hull_rig().view, p_m, query::kUnlimited, none);
       servo::LocalModel model;
       scene::begin_model(model, p_m, 0, 3);
-      scene::touch_mesh<false, true>(rig().object, kRadius_m, p_m, {steps}, touch, model);
+      scene::touch_mesh<false, true>(hull_rig().object, kRadius_m, p_m, {steps}, touch, model);
       const float depth_m = kRadius_m - truth.distance_m;
       if (depth_m > 1e-6f) CHECK_LE(depth_m - 2e-6f, touch.penetration_m);
       touched += depth_m > 0 ? 1u : 0u;
@@ -110,7 +111,7 @@ TEST(BudgetExhausted_BaseHullContactIsEarlyNeverLate) {
       ++of_base_hull;
       early += touch.penetration_m > 0 && depth_m <= 0 ? 1u : 0u;
       const mesh_test::Truth to_base_hull =
-          mesh_test::brute_force(rig().of_base_hull, mesh_test::wide(p_m));
+          mesh_test::brute_force(hull_rig().of_base_hull, mesh_test::wide(p_m));
       const double off_m = to_base_hull.inside ? -to_base_hull.distance : to_base_hull.distance;
       CHECK_LE(double{touch.penetration_m}, std::max(0.0, double{kRadius_m} - off_m) + 2e-6);
       if (model.plane_count == 0) continue;
@@ -125,7 +126,7 @@ TEST(BudgetExhausted_BaseHullContactIsEarlyNeverLate) {
 }
 
 TEST(WithTimeForTheMeshABaseHullChangesNothing) {
-  scene::MeshObject alone = rig().object;
+  scene::MeshObject alone = hull_rig().object;
   alone.base_hull = nullptr;
   scene::MeshTouch with_it, without;
   int i = 0;
@@ -134,7 +135,8 @@ TEST(WithTimeForTheMeshABaseHullChangesNothing) {
     servo::LocalModel a, b;
     scene::begin_model(a, p_m, 0, 3);
     scene::begin_model(b, p_m, 0, 3);
-    scene::touch_mesh<false, true>(rig().object, kRadius_m, p_m, query::kUnlimited, with_it, a);
+    scene::touch_mesh<false, true>(hull_rig().object, kRadius_m, p_m, query::kUnlimited, with_it,
+                                   a);
     scene::touch_mesh<false, true>(alone, kRadius_m, p_m, query::kUnlimited, without, b);
     CHECK(!with_it.is_of_base_hull);
     CHECK_EQ(with_it.penetration_m, without.penetration_m);
@@ -145,7 +147,7 @@ TEST(WithTimeForTheMeshABaseHullChangesNothing) {
 
 // With 20 work units a tick: a tool that neither follows its hand nor says so would be stuck.
 TEST(LeavingHand_WithBaseHullAndLittleWork_IsLetGoOrUncertain) {
-  static const Rig coarse(100);
+  static const HullRig coarse(100);
   const mesh::View& view = coarse.view;
   uint32_t let_go = 0, uncertain = 0;
   for (uint32_t i = 0; i < 600; ++i) {

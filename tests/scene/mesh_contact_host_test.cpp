@@ -19,7 +19,7 @@ namespace {
 constexpr float kHalf = 0.05f;  // of the cube's side, m
 
 // A cube about the origin, each face a grid of `n` x `n` squares, outward.
-tools::Surface cube(uint32_t n) {
+tools::Surface divided_cube(uint32_t n) {
   tools::Surface surface;
   const auto vertex = [&](int x, int y, int z) {  // corners of the grid are shared by search
     const float step = 2 * kHalf / static_cast<float>(n);
@@ -63,15 +63,15 @@ tools::Surface cube(uint32_t n) {
   return surface;
 }
 
-struct Rig {
+struct MeshRig {
   std::vector<tools::Section> sections;
   mesh::View view;
   scene::MeshObject object;
-  explicit Rig(uint32_t n = 4, bool is_signed = true) {
+  explicit MeshRig(uint32_t n = 4, bool is_signed = true) {
     tools::MeshOptions options;
     options.is_signed = is_signed;
     tools::MeshReport report;
-    sections = tools::bake_mesh(cube(n), "cube", options, report);
+    sections = tools::bake_mesh(divided_cube(n), "cube", options, report);
     CHECK(report.problem.empty());
     CHECK(tools::open_baked(sections, "cube", view).ok());
     object.mesh = &view;
@@ -80,10 +80,10 @@ struct Rig {
 };
 
 // The same with a distance field of the cube.
-struct FieldRig : Rig {
+struct FieldRig : MeshRig {
   std::vector<tools::Section> distance_field_sections;
   field::View distance_field;
-  explicit FieldRig(uint32_t n, bool is_signed = true) : Rig(n, is_signed) {
+  explicit FieldRig(uint32_t n, bool is_signed = true) : MeshRig(n, is_signed) {
     tools::FieldReport report;
     distance_field_sections = tools::bake_field(view, "cube", 24, report);
     CHECK(report.problem.empty());
@@ -114,7 +114,7 @@ double far_from(math::Vec3 a, math::Vec3 b) {
 }  // namespace
 
 TEST(SphereOnAFaceIsPushedAlongItsNormal) {
-  const Rig rig;
+  const MeshRig rig;
   Tool tool;
   CHECK_LE(far_from(tool.force_N(rig.object, {0.01f, 0.02f, kHalf + 0.002f}), {0, 0, 1}), 1e-4);
   CHECK_LE(far_from(tool.force_N(rig.object, {0.01f, -kHalf - 0.001f, 0.01f}), {0, -2, 0}), 1e-4);
@@ -124,7 +124,7 @@ TEST(SphereOnAFaceIsPushedAlongItsNormal) {
 }
 
 TEST(SphereOnAnEdgeOrCornerIsPushedAwayFromIt) {
-  const Rig rig;
+  const MeshRig rig;
   Tool tool;
   const float off = 0.001f;
   const double side = static_cast<double>(0.003f - off * std::sqrt(2.0f)) * 1000 / std::sqrt(2.0);
@@ -139,7 +139,7 @@ TEST(SphereOnAnEdgeOrCornerIsPushedAwayFromIt) {
 }
 
 TEST(ForceHasNoJumpAlongAScanOverAnEdge) {
-  const Rig rig;
+  const MeshRig rig;
   Tool tool;
   math::Vec3 before = tool.force_N(rig.object, {kHalf - 0.01f, 0.011f, kHalf + 0.002f});
   double worst = 0;
@@ -159,7 +159,7 @@ TEST(ForceHasNoJumpAlongAScanOverAnEdge) {
 }
 
 TEST(ForceIsContinuousThroughTheSurface) {
-  const Rig rig;
+  const MeshRig rig;
   Tool tool;
   math::Vec3 before = tool.force_N(rig.object, {0.0131f, 0.0077f, kHalf + 1e-3f});
   double worst = 0;
@@ -174,7 +174,7 @@ TEST(ForceIsContinuousThroughTheSurface) {
 }
 
 TEST(Pose_MovesAndTurnsTheContact) {
-  Rig rig;
+  MeshRig rig;
   rig.object.pose.translation_m = {1.0f, 2.0f, -0.5f};
   rig.object.pose.rotation.row[0] = {0, -1, 0};  // a quarter turn about z
   rig.object.pose.rotation.row[1] = {1, 0, 0};
@@ -184,7 +184,7 @@ TEST(Pose_MovesAndTurnsTheContact) {
 }
 
 TEST(UnsignedMeshIsNeverPushedOn) {
-  const Rig rig(4, false);
+  const MeshRig rig(4, false);
   Tool tool;
   for (int i = -40; i <= 40; ++i) {
     const float z = kHalf + 0.0002f * static_cast<float>(i);
@@ -195,7 +195,7 @@ TEST(UnsignedMeshIsNeverPushedOn) {
 }
 
 TEST(ShortBudgetNeverPushesMoreThanTheTruth) {
-  const Rig rig(12);
+  const MeshRig rig(12);
   for (uint32_t steps = 1; steps <= 64; steps *= 2) {
     Tool tool;
     for (int i = 0; i < 3000; ++i) {
@@ -213,7 +213,7 @@ TEST(ShortBudgetNeverPushesMoreThanTheTruth) {
 }
 
 TEST(ShortBudgetInside_RendersTheDepthThatItsCertificateProves) {
-  const Rig rig(12);
+  const MeshRig rig(12);
   uint32_t inexact = 0;
   for (uint32_t steps = 1; steps <= 4; ++steps) {
     Tool tool;
@@ -237,7 +237,7 @@ TEST(ShortBudgetInside_RendersTheDepthThatItsCertificateProves) {
 // A tool comes from afar, touches, presses in and leaves: as the depth says on every tick, though
 // what lies beyond reach is not looked for.
 TEST(InFreeSpaceOnlyWhatMayBeTouchedIsLookedFor) {
-  const Rig rig(12);
+  const MeshRig rig(12);
   const float reach_m = 0.003f + 0.02f * rig.view.head().diagonal_m;
   Tool tool;
   uint32_t near_steps = 0, free_ticks = 0;
@@ -319,7 +319,7 @@ TEST(UnsignedField_BoundsFreeSpaceOnly_NoForce) {
 }
 
 TEST(TwoToolsOnOneObject_DoNotInfluenceEachOther) {
-  const Rig rig;
+  const MeshRig rig;
   Tool a, b, alone;
   for (int i = 0; i < 500; ++i) {
     const float t = static_cast<float>(i) * 1e-3f;
@@ -333,7 +333,7 @@ TEST(TwoToolsOnOneObject_DoNotInfluenceEachOther) {
 }
 
 TEST(HostilePlacesLeaveASoundModel) {
-  const Rig rig;
+  const MeshRig rig;
   Tool tool;
   const float bad[] = {std::numeric_limits<float>::quiet_NaN(),
                        std::numeric_limits<float>::infinity(),

@@ -57,7 +57,7 @@ struct Splines {
 };
 
 constexpr curve::Sample kL[] = {{0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.1f, 0}};
-constexpr curve::Sample kRing[] = {
+constexpr curve::Sample kRingSamples[] = {
     {0, 0, 0}, {0.1f, 0, 0}, {0.1f, 0.1f, 0}, {0, 0.1f, 0}, {0, 0, 0}};
 constexpr curve::Sample kHairpin[] = {{0, 0, 0}, {0.2f, 0, 0}, {0.2f, 0.004f, 0}, {0, 0.004f, 0}};
 constexpr curve::Sample kThree[] = {{0, 0, 0},     {0.2f, 0, 0},  {0.2f, 0.01f, 0},
@@ -73,7 +73,7 @@ void follow(const scene::SplineGuide& guide, math::Vec3 p_m, scene::SplineGuideT
 }
 
 template <class Guide, class Touch>
-struct Rig {
+struct GuideRig {
   Guide guide;
   Touch touch;
   servo::LocalModel model;
@@ -86,8 +86,8 @@ struct Rig {
   }
 };
 
-using CurveRig = Rig<scene::CurveGuide, scene::CurveGuideTouch>;
-using SplineRig = Rig<scene::SplineGuide, scene::SplineGuideTouch>;
+using CurveRig = GuideRig<scene::CurveGuide, scene::CurveGuideTouch>;
+using SplineRig = GuideRig<scene::SplineGuide, scene::SplineGuideTouch>;
 
 scene::Guide settings() {
   scene::Guide guide;
@@ -98,7 +98,7 @@ scene::Guide settings() {
   return guide;
 }
 
-float apart(math::Vec3 a, math::Vec3 b) {
+float distance(math::Vec3 a, math::Vec3 b) {
   const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   return std::sqrt(x * x + y * y + z * z);
 }
@@ -114,7 +114,7 @@ math::Vec3 walk(int i) {
 template <size_t N>
 bool is_at_corner(const curve::Sample (&corners)[N], math::Vec3 p) {
   for (const curve::Sample& c : corners)
-    if (apart(p, {c.x_m, c.y_m, c.z_m}) < 2e-5f) return true;
+    if (distance(p, {c.x_m, c.y_m, c.z_m}) < 2e-5f) return true;
   return false;
 }
 
@@ -136,7 +136,7 @@ void compare(const curve::Sample (&corners)[N], const scene::Guide& with) {
     if (a.touch.is_held && b.touch.is_held) ++held;
     // Two corners of the same cost, or a snap at its edge: the next ticks agree again.
     if (a.touch.is_held != b.touch.is_held ||
-        apart(a.touch.closest.point_m, b.touch.closest.point_m) > 2e-6f) {
+        distance(a.touch.closest.point_m, b.touch.closest.point_m) > 2e-6f) {
       ++others;
       b.touch.is_held = a.touch.is_held;
       b.touch.is_off_end = a.touch.is_off_end;
@@ -145,7 +145,7 @@ void compare(const curve::Sample (&corners)[N], const scene::Guide& with) {
       continue;
     }
     // At a corner the way along is that of either side.
-    if (!is_at_corner(corners, a.touch.closest.point_m)) CHECK_LE(apart(fa, fb), 1e-2f);
+    if (!is_at_corner(corners, a.touch.closest.point_m)) CHECK_LE(distance(fa, fb), 1e-2f);
     CHECK_LE(std::fabs(a.touch.progress_m - b.touch.progress_m), 5e-4f);
     const float arcs = std::fabs(a.touch.closest.arc - b.touch.closest.arc);
     CHECK_LE(sampled.is_closed() && arcs > 0.5f ? 1 - arcs : arcs, 1e-5f);
@@ -160,7 +160,7 @@ void compare(const curve::Sample (&corners)[N], const scene::Guide& with) {
 
 TEST(SplineOfStraightPieces_GuidesLikeTheSampledCurve) {
   compare(kL, settings());
-  compare(kRing, settings());
+  compare(kRingSamples, settings());
   compare(kHairpin, settings());
   compare(kThree, settings());
 }
@@ -182,7 +182,7 @@ TEST(TheSameWithTunnelSideEndsAndDrive) {
   compare(kL, guide);
   guide.drive = {scene::Drive::Kind::kLead, 0.5f, 0.05f, 0.001f};
   compare(kL, guide);
-  compare(kRing, guide);
+  compare(kRingSamples, guide);
 }
 
 TEST(ASplineGuideKeepsToItsStrandByThePenalty) {
@@ -193,8 +193,9 @@ TEST(ASplineGuideKeepsToItsStrandByThePenalty) {
     rig.guide.material.damping_N_s_per_m = 0;
     rig.guide.spline = &splines.guide;
     rig.guide.arc_penalty = penalty;
-    CHECK_LE(apart(rig.force_N({0.05f, 0.001f, 0.5f}), {0, -0.1f, 0}), 1e-3f);
-    CHECK_LE(apart(rig.force_N({0.05f, 0.003f, 0.5f}), {0, penalty > 0 ? -0.3f : 0.1f, 0}), 1e-3f);
+    CHECK_LE(distance(rig.force_N({0.05f, 0.001f, 0.5f}), {0, -0.1f, 0}), 1e-3f);
+    CHECK_LE(distance(rig.force_N({0.05f, 0.003f, 0.5f}), {0, penalty > 0 ? -0.3f : 0.1f, 0}),
+             1e-3f);
   }
 }
 
@@ -220,7 +221,7 @@ TEST(SplineCircle_ForceHasNoCorner_OpenRingContinues) {
     const math::Vec3 p{static_cast<float>((r + 0.002) * std::cos(angle)),
                        static_cast<float>((r + 0.002) * std::sin(angle)), 0.5f};
     const math::Vec3 now = rig.force_N(p);
-    if (i > 0 && i % 2000 > 40 && i % 2000 < 1960) worst = std::max(worst, apart(now, before));
+    if (i > 0 && i % 2000 > 40 && i % 2000 < 1960) worst = std::max(worst, distance(now, before));
     before = now;
     CHECK(rig.touch.is_held);
     CHECK_LE(rig.touch.closest.distance_m, 0.004f);

@@ -46,12 +46,12 @@ tools::Surface sphere() {
   return surface;
 }
 
-struct Rig {
+struct StarvedRig {
   mesh_test::BakedMesh baked{sphere()};
   scene::MeshObject object;
   scene::MeshTouch touch;
   servo::LocalModel model;
-  Rig() {
+  StarvedRig() {
     CHECK_EQ(baked.surface.faces.size(), 20184u);
     object.mesh = &baked.view;
     object.material = {static_cast<float>(kStiffness_N_per_m), 0.0f};
@@ -63,7 +63,7 @@ struct Rig {
   }
 };
 
-double length(math::Vec3 a) {
+double size_of(math::Vec3 a) {
   const double x = static_cast<double>(a.x), y = static_cast<double>(a.y),
                z = static_cast<double>(a.z);
   return std::sqrt(x * x + y * y + z * z);
@@ -75,12 +75,12 @@ double length(math::Vec3 a) {
 TEST(ShortBudgetInside_RendersAllTheDepthThatIsCertified) {
   uint32_t starved = 0, deep = 0;
   for (const query::Budget budget : {kDefault, query::Budget{16}, query::Budget{2}}) {
-    Rig rig;
+    StarvedRig rig;
     for (int tick = 0; tick < 300; ++tick) {
       const double height_m = std::max(0.055 - 0.0003 * tick, 0.001);
       const math::Vec3 p_m{static_cast<float>(0.8 * height_m), 0,
                            static_cast<float>(0.6 * height_m)};
-      const double size_N = length(rig.force_N(p_m, budget));
+      const double size_N = size_of(rig.force_N(p_m, budget));
       const query::Certificate& certificate = rig.touch.closest.certificate;
       const double lower_m = static_cast<double>(certificate.lower_m);
       firmtouch::test::note("tick", tick);
@@ -104,12 +104,12 @@ TEST(ShortBudgetInside_RendersAllTheDepthThatIsCertified) {
 // The opposite fault: a depth that nothing proves, or a side that nobody knows.
 TEST(ShortBudgetInside_AfterAJumpNoSideIsKnownAndNoForceIsMade) {
   for (uint32_t steps = 1; steps <= 64; steps *= 2) {
-    Rig rig;
+    StarvedRig rig;
     (void)rig.force_N({0.02f, 0.01f, 0.03f}, query::kUnlimited);
     CHECK_EQ(rig.touch.closest.certificate.sign, -1);
     const math::Vec3 force_N = rig.force_N({-0.001f, 0.0005f, -0.0007f}, {steps});
     CHECK_EQ(rig.touch.closest.certificate.sign, 0);
-    CHECK_EQ(length(force_N), 0.0);
+    CHECK_EQ(size_of(force_N), 0.0);
     CHECK_EQ(rig.model.plane_count, 0u);
   }
 }

@@ -71,7 +71,7 @@ struct Stored {
 };
 
 template <class Break>
-void check_rule(uint16_t rule, uint32_t element, const Break& break_it, bool has_reliefs = false) {
+void check_break(uint16_t rule, uint32_t element, const Break& break_it, bool has_reliefs = false) {
   Stored stored;
   if (has_reliefs) stored.add_reliefs();
   test::check_rule(stored, rule, element, break_it);
@@ -80,36 +80,36 @@ void check_rule(uint16_t rule, uint32_t element, const Break& break_it, bool has
 }  // namespace
 
 TEST(StoredMaterials_EachRuleIsBrokenAlone) {
-  check_rule(scene::kRuleMaterialCount, 0, [](Stored& s) { s.table.clear(); });
+  check_break(scene::kRuleMaterialCount, 0, [](Stored& s) { s.table.clear(); });
   CHECK_EQ(Stored().verdict(1).rule, uint16_t{scene::kRuleMaterialCount});
   CHECK_EQ(Stored(255).verdict().rule, 0u);
   CHECK_EQ(Stored(256).verdict().rule, uint16_t{scene::kRuleMaterialCount});
-  check_rule(scene::kRuleMaterialName, 1, [](Stored& s) { s.table[1].name[0] = 0; });
-  check_rule(scene::kRuleMaterialName, 0, [](Stored& s) { s.table[0].name[1] = 7; });
-  check_rule(scene::kRuleMaterialName, 0, [](Stored& s) { s.table[0].name[31] = 'x'; });
-  check_rule(scene::kRuleMaterialTwice, 1, [](Stored& s) { s.table[1].name[1] = '0'; });
+  check_break(scene::kRuleMaterialName, 1, [](Stored& s) { s.table[1].name[0] = 0; });
+  check_break(scene::kRuleMaterialName, 0, [](Stored& s) { s.table[0].name[1] = 7; });
+  check_break(scene::kRuleMaterialName, 0, [](Stored& s) { s.table[0].name[31] = 'x'; });
+  check_break(scene::kRuleMaterialTwice, 1, [](Stored& s) { s.table[1].name[1] = '0'; });
   const float bad[] = {-1, NAN, INFINITY};
   for (const float value : bad) {
-    check_rule(scene::kRuleMaterialValue, 1,
-               [&](Stored& s) { s.table[1].stiffness_N_per_m = value; });
-    check_rule(scene::kRuleMaterialValue, 0,
-               [&](Stored& s) { s.table[0].friction_static = value; });
-    check_rule(scene::kRuleMaterialValue, 0,
-               [&](Stored& s) { s.table[0].friction_dynamic = value; });
-    check_rule(scene::kRuleMaterialValue, 0,
-               [&](Stored& s) { s.table[0].friction_viscous_N_s_per_m = value; });
+    check_break(scene::kRuleMaterialValue, 1,
+                [&](Stored& s) { s.table[1].stiffness_N_per_m = value; });
+    check_break(scene::kRuleMaterialValue, 0,
+                [&](Stored& s) { s.table[0].friction_static = value; });
+    check_break(scene::kRuleMaterialValue, 0,
+                [&](Stored& s) { s.table[0].friction_dynamic = value; });
+    check_break(scene::kRuleMaterialValue, 0,
+                [&](Stored& s) { s.table[0].friction_viscous_N_s_per_m = value; });
   }
-  check_rule(scene::kRuleMaterialValue, 0, [](Stored& s) { s.table[0].stiffness_N_per_m = 0; });
-  check_rule(scene::kRuleMaterialValue, 0, [](Stored& s) { s.table[0].friction_static = 101; });
-  check_rule(scene::kRuleMaterialBytes, 0, [](Stored& s) { s.triangles.pop_back(); });
-  check_rule(scene::kRuleMaterialBytes, 0, [](Stored& s) { s.triangles.push_back(0); });
-  check_rule(scene::kRuleMaterialIndex, 11, [](Stored& s) { s.triangles[11] = 3; });
-  check_rule(scene::kRuleMaterialIndex, 0, [](Stored& s) { s.triangles[0] = 255; });
+  check_break(scene::kRuleMaterialValue, 0, [](Stored& s) { s.table[0].stiffness_N_per_m = 0; });
+  check_break(scene::kRuleMaterialValue, 0, [](Stored& s) { s.table[0].friction_static = 101; });
+  check_break(scene::kRuleMaterialBytes, 0, [](Stored& s) { s.triangles.pop_back(); });
+  check_break(scene::kRuleMaterialBytes, 0, [](Stored& s) { s.triangles.push_back(0); });
+  check_break(scene::kRuleMaterialIndex, 11, [](Stored& s) { s.triangles[11] = 3; });
+  check_break(scene::kRuleMaterialIndex, 0, [](Stored& s) { s.triangles[0] = 255; });
 }
 
 TEST(StoredMaterials_EachRuleOfTexturesIsBrokenAlone) {
-  check_rule(scene::kRuleTextureCount, 0, [](Stored& s) { s.textures.pop_back(); });
-  check_rule(scene::kRuleTextureCount, 0, [](Stored& s) { s.textures.push_back({}); });
+  check_break(scene::kRuleTextureCount, 0, [](Stored& s) { s.textures.pop_back(); });
+  check_break(scene::kRuleTextureCount, 0, [](Stored& s) { s.textures.push_back({}); });
   const auto check_wave = [](uint16_t rule, scene::WaveLayout wave) {
     for (const size_t which : {size_t{0}, size_t{1}}) {
       Stored stored;
@@ -132,7 +132,7 @@ TEST(StoredMaterials_EachRuleOfTexturesIsBrokenAlone) {
 
 TEST(StoredMaterials_EachRuleOfReliefsIsBrokenAlone) {
   const auto check = [](uint16_t rule, uint32_t element, const auto& break_it) {
-    check_rule(rule, element, break_it, true);
+    check_break(rule, element, break_it, true);
   };
   check(scene::kRuleTextureCount, 0, [](Stored& s) { s.reliefs.pop_back(); });
   check(scene::kRuleTextureCount, 0, [](Stored& s) { s.reliefs.push_back({}); });

@@ -84,7 +84,7 @@ struct Torus {
 };
 
 template <class Shape>
-struct Rig {
+struct TexturedRig {
   Shape shape;
   math::RigidTransform pose;
   scene::ProxyContact contact;
@@ -93,7 +93,7 @@ struct Rig {
   servo::LocalModel model;
   bool is_flat = false;  // without a texture
 
-  explicit Rig(float friction = 0) {
+  explicit TexturedRig(float friction = 0) {
     contact.settings.radius_m = static_cast<float>(kTool_m);
     contact.settings.budget.work = 1u << 20;
     contact.settings.friction_static = contact.settings.friction_dynamic = friction;
@@ -121,7 +121,7 @@ struct Rig {
 // times the slope.
 template <class Shape>
 void check_closed_form(uint32_t count) {
-  Rig<Shape> rig;
+  TexturedRig<Shape> rig;
   tools::Random random(4);
   uint32_t held = 0;
   for (uint32_t i = 0; i < count; ++i) {
@@ -153,7 +153,7 @@ Loops loops_of(float friction, uint32_t count, double step_m, bool is_flat = fal
   tools::Random random(11);
   Loops loops;
   double stored_J = 0;
-  Rig<Shape> rig(friction);
+  TexturedRig<Shape> rig(friction);
   rig.is_flat = is_flat;
   for (uint32_t loop = 0; loop < count; ++loop) {
     Wide place[5];
@@ -218,8 +218,8 @@ TEST(Textured_ShapeThatWasTurned_TurnsItsTexture) {
       return box.near(x_m, budget, needed_m);
     }
   };
-  Rig<Box> plain;
-  Rig<TurnedBox> turned;
+  TexturedRig<Box> plain;
+  TexturedRig<TurnedBox> turned;
   turned.pose = kTurned;
   const auto waves = [](Vec3 x_m) { return scene::cut_at(kGrid, x_m); };
   uint32_t held = 0;
@@ -234,7 +234,7 @@ TEST(Textured_ShapeThatWasTurned_TurnsItsTexture) {
 }
 
 TEST(Textured_HostileCuts_AreNone) {
-  Rig<Ball> rig, plain;
+  TexturedRig<Ball> rig, plain;
   const auto flat = [](Vec3) { return scene::Cut{}; };
   uint32_t held = 0;
   const float hostile[] = {NAN, INFINITY, -INFINITY, -1e-3f, 1, FLT_MAX};

@@ -10,8 +10,8 @@
 
 namespace {
 
-namespace simd = firmtouch::simd;
-using namespace mesh_test;  // NOLINT: a test file
+using namespace firmtouch;  // NOLINT: a test file
+using namespace mesh_test;  // NOLINT
 
 // The rows of a leaf's block, among values that are no triangle's.
 struct Rows {
@@ -50,8 +50,8 @@ struct Rows {
 
 // A block of up to eight triangles, anywhere.
 simd::Block any_block() {
-  const uint32_t count = 1 + next_random() % simd::kLanes;
-  return {next_random() % (kTriangles - count + 1), count};
+  const uint32_t count = 1 + random_bits() % simd::kLanes;
+  return {random_bits() % (kTriangles - count + 1), count};
 }
 
 // A leaf squeezed flat, to needles whose height is no float's difference at last.
@@ -125,8 +125,8 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   const Leaf leaf = flattened(turn);
   const float slack_m2 = mesh::Nearer::slack_m2(longest_edge_m(leaf));
   const simd::Block block = any_block();
-  const uint32_t most = block.count < 7 ? block.count : 7, count = 1 + next_random() % most;
-  const uint32_t first = block.first + next_random() % (block.count - count + 1);
+  const uint32_t most = block.count < 7 ? block.count : 7, count = 1 + random_bits() % most;
+  const uint32_t first = block.first + random_bits() % (block.count - count + 1);
   const uint32_t child = mesh::make_leaf(first, count);
   const Rows rows(leaf, block);
   const simd::BlockTriangles triangles(rows.tree, simd::make_wide_leaf(child, block));
@@ -142,7 +142,7 @@ void compare_leaves(uint32_t turn, Compared& compared) {
   compared.differ += same(upper2_m2[0], min2_m2) && same(at_once, scalar) ? 0u : 1u;
   compared.differ += same(upper2_m2[1], min2_m2) && same(near, scalar) ? 0u : 1u;
   if (bound2_m2 < FLT_MAX) return;
-  const uint32_t lasts[] = {scalar.triangle, first, next_random()};
+  const uint32_t lasts[] = {scalar.triangle, first, random_bits()};
   for (const uint32_t last : lasts) {
     mesh::Best best;
     const auto same_distance2 = [](float distance2_m2) { return distance2_m2; };

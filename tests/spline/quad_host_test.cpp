@@ -12,10 +12,10 @@ using firmtouch::tools::Random;
 
 namespace {
 
-struct Point {
+struct WidePoint {
   double x, y, z;
 };
-Point wide(math::Vec3 v) {
+WidePoint wide(math::Vec3 v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
@@ -23,8 +23,8 @@ struct Area {
   double low[2] = {-1, -1}, high[2] = {1, 1};
 };
 double distance(const spline::Quad& quad, math::Vec3 q, double x, double y) {
-  const Point c = wide(quad.centre), a = wide(quad.a), b = wide(quad.b), t = wide(quad.twist),
-              p = wide(q);
+  const WidePoint c = wide(quad.centre), a = wide(quad.a), b = wide(quad.b), t = wide(quad.twist),
+                  p = wide(q);
   return std::hypot(c.x + x * a.x + y * b.x + x * y * t.x - p.x,
                     c.y + x * a.y + y * b.y + x * y * t.y - p.y,
                     c.z + x * a.z + y * b.z + x * y * t.z - p.z);
@@ -84,7 +84,7 @@ spline::Quad any_quad(Random& random, int kind) {
 math::Vec3 any_query(Random& random, const spline::Quad& quad, int i) {
   const double x = random.between(-1.5, 1.5), y = random.between(-1.5, 1.5);
   const double off = std::pow(10.0, random.between(-2, 3)) * (i % 5 == 0 ? 0 : 20);
-  const Point c = wide(quad.centre), a = wide(quad.a), b = wide(quad.b), t = wide(quad.twist);
+  const WidePoint c = wide(quad.centre), a = wide(quad.a), b = wide(quad.b), t = wide(quad.twist);
   return {static_cast<float>(c.x + x * a.x + y * b.x + x * y * t.x + off * random.bell()),
           static_cast<float>(c.y + x * a.y + y * b.y + x * y * t.y + off * random.bell()),
           static_cast<float>(c.z + x * a.z + y * b.z + x * y * t.z + off * random.bell())};
@@ -123,17 +123,17 @@ spline::LeafShape any_leaf(Random& random, const spline::Quad& quad, bool is_rat
   return leaf;
 }
 math::Vec3 point_of(const spline::LeafShape& leaf, double x, double y) {
-  Point sum{};
+  WidePoint sum{};
   double weight = 0;
   for (uint32_t j = 0; j <= leaf.degree_v; ++j)
     for (uint32_t i = 0; i <= leaf.degree_u; ++i) {
       const uint32_t k = j * (leaf.degree_u + 1) + i;
       const double power = std::pow(x, i) * std::pow(y, j);
-      const Point c = wide(leaf.c[k]);
+      const WidePoint c = wide(leaf.c[k]);
       sum = {sum.x + c.x * power, sum.y + c.y * power, sum.z + c.z * power};
       weight += static_cast<double>(leaf.w[k]) * power;
     }
-  const Point at = wide(leaf.local_m);
+  const WidePoint at = wide(leaf.local_m);
   return {static_cast<float>(at.x + sum.x / weight), static_cast<float>(at.y + sum.y / weight),
           static_cast<float>(at.z + sum.z / weight)};
 }

@@ -28,7 +28,7 @@ tools::SplineCurve flattened(tools::SplineCurve curve) {
   return curve;
 }
 // About x, by a quarter turn: y becomes z.
-tools::SplineCurve raised(tools::SplineCurve curve) {
+tools::SplineCurve lifted(tools::SplineCurve curve) {
   for (tools::ControlPoint& p : curve.points) p = {p.x, -p.z, p.y, p.w};
   return curve;
 }
@@ -205,7 +205,7 @@ TEST(PlanarCurve_AnswersTheSame_TurnedOutOfItsPlane) {
     tools::Random random(seed + 3);
     const tools::SplineCurve curve =
         flattened(spline_test::random_curve(random, static_cast<int>(1 + seed % 5), most_of(seed)));
-    const BakedModel flat(of(curve)), standing(of(raised(curve)));
+    const BakedModel flat(of(curve)), standing(of(lifted(curve)));
     CHECK(flat.view.is_flat());
     CHECK(!standing.view.is_flat());
     Path path{random, 0.01, 1.3};

@@ -82,13 +82,13 @@ Contender all_footpoints(const Spline& spline, const std::vector<Point>& path) {
   });
 }
 
-struct Baked {
+struct BakedSpline {
   std::vector<tools::Section> sections;
   spline::View view;
 };
 
 template <class Spline>
-std::unique_ptr<Baked> baked_of(const Spline& spline) {
+std::unique_ptr<BakedSpline> baked_of(const Spline& spline) {
   constexpr bool kIsCurve = std::is_same_v<Spline, tools::SplineCurve>;
   tools::SplineModel model;
   if constexpr (kIsCurve)
@@ -96,7 +96,7 @@ std::unique_ptr<Baked> baked_of(const Spline& spline) {
   else
     model.surfaces.push_back(spline);
   tools::SplineReport reported;
-  auto baked = std::make_unique<Baked>();
+  auto baked = std::make_unique<BakedSpline>();
   baked->sections = tools::bake_fast_spline(model, "spline", false, reported);
   if (!reported.problem.empty()) throw Problem(reported.problem);
   if (!tools::open_baked(baked->sections, "spline", baked->view).ok())
@@ -105,7 +105,7 @@ std::unique_ptr<Baked> baked_of(const Spline& spline) {
 }
 
 // The global closest point with its certificate, led along the path; cold: each on its own.
-Contender certified(const Baked& baked, const std::vector<math::Vec3>& path, bool is_cold) {
+Contender certified(const BakedSpline& baked, const std::vector<math::Vec3>& path, bool is_cold) {
   return median_of_passes(timed(path.size(), [&baked, &path, is_cold] {
     spline::Hint hint;
     double total = 0;

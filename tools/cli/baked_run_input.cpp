@@ -52,14 +52,15 @@ bool is_place(const tools::Place& p) {
   return std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.z_m);
 }
 
-struct Run {
+struct SampledRun {
   std::vector<tools::Place> places;  // in the frame of the asset that the run touched, less origin
   size_t left_out = 0;               // ticks whose position is not to be trusted
 };
 
 // From the first tick with enable to the last: before, parameters may still be set, which bend what
 // a position means. A run that was never enabled counts whole.
-Run run_of(const std::vector<Tick>& ticks, const log::Header& header, tools::Point origin_m) {
+SampledRun run_of(const std::vector<Tick>& ticks, const log::Header& header,
+                  tools::Point origin_m) {
   size_t begin = 0, end = ticks.size();
   while (begin < end && (ticks[begin].lines & kEnable) == 0) ++begin;
   while (end > begin && (ticks[end - 1].lines & kEnable) == 0) --end;
@@ -67,7 +68,7 @@ Run run_of(const std::vector<Tick>& ticks, const log::Header& header, tools::Poi
   const double x_m = number_of(header, "parameter.scene_x_m") + origin_m.x,
                y_m = number_of(header, "parameter.scene_y_m") + origin_m.y,
                z_m = number_of(header, "parameter.scene_z_m") + origin_m.z;
-  Run run;
+  SampledRun run;
   for (size_t i = begin; i < end; ++i) {
     const tools::Place& p = ticks[i].place;
     if ((ticks[i].lines & kEncoderFault) != 0 || !is_place(p))
@@ -101,7 +102,8 @@ double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Plac
 }
 
 // Cubic pieces leave the straight ones that were checked: thinned less, until they too keep near.
-tools::ThinnedRun thinned_for(const Run& run, const BakeOptions& options, const std::string& path) {
+tools::ThinnedRun thinned_for(const SampledRun& run, const BakeOptions& options,
+                              const std::string& path) {
   double max_m = options.max_deviation_m;
   for (int tries = 0; tries < kMaxTries; ++tries, max_m /= 2) {
     tools::ThinnedRun thinned = tools::thin_run(run.places, max_m, path);
@@ -142,7 +144,7 @@ BakedInput bake_run_input(const std::string& path, const BakeOptions& options, P
   try {
     log::Reader reader(log::over_memory(source), path);
     const std::vector<Tick> ticks = ticks_of(reader, path);
-    const Run run = run_of(ticks, reader.header(), options.model.origin_m);
+    const SampledRun run = run_of(ticks, reader.header(), options.model.origin_m);
     tools::ThinnedRun thinned = thinned_for(run, options, path);
     if (!thinned.points.problem.empty()) fail_input(thinned.points.problem);
     std::vector<std::string>& notes = thinned.points.notes;

@@ -116,7 +116,7 @@ int print_study(const LinkageDevice& device, const Arguments& arguments) {
   return code;
 }
 
-std::string json_of(const Calibration& found) {
+std::string calibration_json(const Calibration& found) {
   tools::Json all;
   all.add("equations", uint64_t{found.equations}).add("rms_m", found.rms_m);
   all.add("parameters", tools::json_list(found.parameters, [](const Calibrated& parameter) {
@@ -197,7 +197,7 @@ int run_calibrate(const Arguments& arguments) {
                  touches.c_str(), found.rms_m * 1e6);
     return kAnswerIsNo;
   }
-  if (arguments.has("--json")) std::fputs(json_of(found).c_str(), stdout);
+  if (arguments.has("--json")) std::fputs(calibration_json(found).c_str(), stdout);
   if (!arguments.has("--json")) print(found);
   if (output.empty()) return kDone;
   const std::string file = changed(text, found);

@@ -52,7 +52,7 @@ function(firmtouch_add_host_tools)
   add_custom_target(
     firmtouch_host_tools
     COMMAND ${clean} ${CMAKE_COMMAND} -S ${source} -B ${build} -DCMAKE_BUILD_TYPE=Release -DFIRMTOUCH_TESTS=OFF
-            -DFIRMTOUCH_TOOLS=ON -DFIRMTOUCH_PRECOMPILE=ON ${compiler}
+            -DFIRMTOUCH_TOOLS=ON ${compiler}
     COMMAND ${clean} ${CMAKE_COMMAND} --build ${build} --target firmtouch --parallel ${cores}
     BYPRODUCTS ${build}/bin/firmtouch
     COMMENT "Firmtouch's baker, for this machine"

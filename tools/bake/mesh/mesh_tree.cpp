@@ -10,10 +10,10 @@
 namespace firmtouch::tools {
 namespace {
 
-struct Box {
+struct WideBox {
   std::array<double, 3> low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
 
-  void add(const Box& other) {
+  void add(const WideBox& other) {
     for (size_t k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], other.low[k]);
       high[k] = std::max(high[k], other.high[k]);
@@ -29,12 +29,12 @@ struct Box {
 
 std::array<double, 3> coordinates(math::Vec3 v) { return {double{v.x}, double{v.y}, double{v.z}}; }
 
-std::vector<Box> face_boxes(const Surface& surface) {
-  std::vector<Box> boxes(surface.faces.size());
+std::vector<WideBox> face_boxes(const Surface& surface) {
+  std::vector<WideBox> boxes(surface.faces.size());
   for (size_t f = 0; f < boxes.size(); ++f)
     for (const uint32_t corner : surface.faces[f]) {
       const std::array<double, 3> p = coordinates(surface.vertices[corner]);
-      boxes[f].add(Box{p, p});
+      boxes[f].add(WideBox{p, p});
     }
   return boxes;
 }
@@ -54,7 +54,7 @@ constexpr double kLeafCost = 0.53;
 
 // Grid coordinates of a box, rounded outward; 1/128 cell more than the rounding that the firmware's
 // check allows.
-void store_box(const Box& box, const Grid& grid, uint32_t* words) {
+void store_box(const WideBox& box, const Grid& grid, uint32_t* words) {
   const double slack = 0x1p-7 + double{grid.slack_cells};
   for (size_t k = 0; k < 3; ++k) {
     const double low =
@@ -76,7 +76,7 @@ class Builder {
     for (size_t axis = 0; axis < 3; ++axis) {
       std::vector<std::pair<double, uint32_t>> centres;  // twice as far from the origin
       centres.reserve(boxes_.size());
-      for (const Box& box : boxes_)
+      for (const WideBox& box : boxes_)
         centres.push_back({box.low[axis] + box.high[axis], static_cast<uint32_t>(centres.size())});
       std::sort(centres.begin(), centres.end());
       for (const auto& [centre, face] : centres) faces_[axis].push_back(face);
@@ -125,8 +125,8 @@ class Builder {
     uint32_t middle;  // the first of the second half, in the order along the axis
   };
 
-  Box box_of(uint32_t begin, uint32_t end, size_t axis = 0) const {
-    Box box;
+  WideBox box_of(uint32_t begin, uint32_t end, size_t axis = 0) const {
+    WideBox box;
     if (begin == end) return boxes_[faces_[axis][begin - 1]];  // the second leaf of a single face
     for (uint32_t i = begin; i < end; ++i) box.add(boxes_[faces_[axis][i]]);
     return box;
@@ -139,7 +139,7 @@ class Builder {
     area_before_.resize(boxes_.size());
     for (size_t axis = 0; axis < 3; ++axis) {
       const std::vector<uint32_t>& faces = faces_[axis];
-      Box box;
+      WideBox box;
       for (uint32_t i = begin; i < end; ++i) {
         box.add(boxes_[faces[i]]);
         area_before_[i] = box.half_area(margin_);
@@ -210,7 +210,7 @@ class Builder {
     }
   }
 
-  std::vector<Box> boxes_;
+  std::vector<WideBox> boxes_;
   Grid grid_;
   TreeShape shape_;
   double mean_edge_;
@@ -225,8 +225,8 @@ class Builder {
 }  // namespace
 
 Grid make_grid(const Surface& surface) {
-  Box box;
-  for (const math::Vec3& v : surface.vertices) box.add(Box{coordinates(v), coordinates(v)});
+  WideBox box;
+  for (const math::Vec3& v : surface.vertices) box.add(WideBox{coordinates(v), coordinates(v)});
   double extent = 0;
   for (size_t k = 0; k < 3; ++k) extent = std::max(extent, box.high[k] - box.low[k]);
   Grid grid;
