@@ -46,7 +46,6 @@ function(firmtouch_together target)
     set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${target}_${chosen})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # it would warn of what one file hides of another, and takes the files for headers
-    target_compile_options(${target} PRIVATE -Wno-shadow -Wshadow=local -Wno-subobject-linkage)
-  endif()
+  # Compilers would warn of what one file hides of another; GCC takes the files for headers, too.
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
