@@ -10,6 +10,7 @@ function(firmtouch_together target)
     if(NOT EXISTS ${source})  # the build makes it
       continue()
     endif()
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})  # what it gives may change
     file(READ ${source} text)
     string(REGEX REPLACE "[][;]" "=" text "${text}")  # which mean something to CMake's lists
     string(REGEX REPLACE ", (k[A-Z])" "\nconst \\1" text "${text}")  # the second name of a declaration
