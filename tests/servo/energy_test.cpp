@@ -200,6 +200,24 @@ TEST(Energy_DriveBeyondTheSlewLimit_IsNotCounted) {
   }
 }
 
+// Something else moves the proxy on, as a turn of the tool does, and the hand gives way.
+TEST(Energy_StretchThatGrowsWhileTheHandGivesWay_GivesNoMoreThanTheReservoir) {
+  servo::Energy energy;
+  float at_m = 0, stretch_m = 0, force_N = 0;
+  double given_J = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (i >= 50) at_m += 0.00005f;
+    given_J += i < 50 ? 0.0 : static_cast<double>(force_N) * 0.00005;
+    stretch_m += 0.00001f;
+    const float payable_m = servo::payable_stretch_m(energy, {kReservoir_J, 0.0f},
+                                                     kStiffness_N_per_m, stretch_m, {0, 0, at_m});
+    force_N = kStiffness_N_per_m * payable_m;
+    energy.contact_N = {0, 0, force_N};
+    CHECK_EQ(energy.overdrawn_ticks, 0u);
+  }
+  CHECK_LE(given_J, static_cast<double>(kReservoir_J) + 0.0002);
+}
+
 TEST(Energy_EverySpecial_LeavesAStretchThatIsFiniteAndFillsNothing) {
   for (const uint32_t a : kSpecialBits)
     for (const uint32_t b : kSpecialBits) {

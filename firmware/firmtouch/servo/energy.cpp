@@ -18,7 +18,7 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   energy.position_m = position_m;
   energy.stretch_m = stretch_m;
   energy.payable_m = stretch_m;
-  const bool is_out = !(stretch_m > 0.0f) && given_J > 0.0f;
+  const bool is_giving = given_J > 0.0f, is_out = !(stretch_m > 0.0f) && is_giving;
   energy.is_unpaid = (entered_m < 0.0f || is_out) && given_J > available_J;
   if (!(available_J < -kOverdraft_J))
     energy.overdrawn_ticks = 0;
@@ -40,7 +40,7 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   if (left_m > 0.0f) {
     const float next_m = (available_J / left_m + friction_N) / stiffness_N_per_m;
     if (next_m < payable_m) payable_m = next_m;
-  } else if (payable_m < grown_m) {
+  } else if (!is_giving && payable_m < grown_m) {
     payable_m = grown_m;
   }
   if (!(payable_m < stretch_m)) return stretch_m;

@@ -43,7 +43,7 @@ struct Energy {
 ///           no more than holds the available energy;
 ///           of a tool that leaves, no more than is paid for until the next tick;
 ///           of a tool that enters, at least the last result and its step, so that contact resists
-///             and fills up.
+///             and fills up; not while contact gives energy, as where a tool is turned into it.
 ///         For NaN, a full reservoir.
 /// Bounds: constant; re-entrant for different states.
 /// Source: Hannaford and Ryu 2002 (observer); Lee and Huang 2010 (the spring is shortened to its
