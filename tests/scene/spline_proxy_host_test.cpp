@@ -113,3 +113,39 @@ TEST(SplineProxy_AlongTheAxisOfATorus_IsNotStuckWithLittleWork) {
     CHECK_LE(wide(math::length(drag.proxy.position_m - math::Vec3{0, 0, -0.08f})), 1e-6);
   }
 }
+
+// Beyond an edge no normal gives the side where the tool begins.
+TEST(SplineProxy_BeginsBesideAnyEdge_IsCertainWithinTenTicks) {
+  for (const float lean : {0.0f, 0.5f, 3.0f}) {  // edges of 90, 63 and 18 degrees
+    const Surface surface = cube(0, wide(lean));
+    scene::SplineObject object;
+    object.surface = &surface.view;
+    object.is_closed = true;
+    tools::Random random(11);
+    uint32_t begun = 0, unknown = 0, wrong = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const auto any_m = [&] { return static_cast<float>(random.between(-0.08, 0.08)); };
+      const math::Vec3 hand_m{any_m(), any_m(), any_m()};
+      const float most_m =
+          std::fmax(std::fmax(std::fabs(hand_m.x - lean * hand_m.y), std::fabs(hand_m.y)),
+                    std::fabs(hand_m.z));
+      if (std::fabs(most_m - 0.02f) < 0.003f) continue;
+      spline::Hint hint;
+      scene::SplineTouched shape{object, hint};
+      scene::Proxy proxy;
+      scene::ProxySettings settings;
+      settings.radius_m = 0.0005f;
+      settings.budget.work = 465;  // as by default in a tick
+      ++begun;
+      for (int tick = 0; tick < 10 && proxy.phase == scene::Proxy::Phase::kUnknown; ++tick)
+        scene::move_proxy(settings, hand_m, shape, proxy);
+      const bool is_unknown = proxy.phase == scene::Proxy::Phase::kUnknown;
+      unknown += is_unknown;
+      wrong += !is_unknown && (proxy.phase == scene::Proxy::Phase::kInside) != (most_m < 0.02f);
+    }
+    test::note("lean, percent", static_cast<uint32_t>(100 * lean));
+    CHECK_LT(2500u, begun);
+    CHECK_EQ(unknown, 0u);
+    CHECK_EQ(wrong, 0u);
+  }
+}

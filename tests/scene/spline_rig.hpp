@@ -53,8 +53,8 @@ inline Surface torus(bool is_inside_out = false) {
 }
 
 // A cube of 40 mm of six bilinear patches: creases everywhere. `inward`: normals that the file
-// turns in.
-inline Surface cube(uint32_t inward = 0) {
+// turns in. `lean`: how far x leans with y, to sharp edges.
+inline Surface cube(uint32_t inward = 0, double lean = 0) {
   std::vector<tools::SplineSurface> sides;
   const double h = 0.02;
   for (int axis = 0; axis < 3; ++axis)
@@ -71,7 +71,7 @@ inline Surface cube(uint32_t inward = 0) {
           const bool is_in = (inward >> sides.size() & 1u) != 0;
           at[(axis + 1) % 3] = (is_in ? -i : i) * end * h;  // else u x v points out
           at[(axis + 2) % 3] = j * h;
-          s.points.push_back({at[0], at[1], at[2], 1});
+          s.points.push_back({at[0] + lean * at[1], at[1], at[2], 1});
         }
       sides.push_back(s);
     }

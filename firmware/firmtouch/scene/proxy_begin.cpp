@@ -10,6 +10,18 @@ using math::Vec3;
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
+constexpr float kFree = 0.9f;
+constexpr float kBeyond = 0.1f;
+
+// Beside a crease, where exact answers give no side: round it to the normal of a face that meets
+// there and a little beyond, above that face, as far as is free.
+Vec3 round_crease(const Near& near, Vec3 off_m) {
+  const float high_m = math::dot(off_m, near.outward), most_m = kFree * near.lower_m;
+  const float up_m = __builtin_copysignf(near.lower_m, high_m) + kBeyond * high_m;
+  const Vec3 way_m = near.outward * up_m - off_m * (1.0f + kBeyond);
+  const float size_m = math::length(way_m);
+  return size_m <= most_m ? way_m : way_m * (most_m / size_m);
+}
 
 }  // namespace
 
@@ -42,9 +54,15 @@ void ProxyMove::begin_contact(const Near& near) {
   }
   moved_.is_starved = true;
   proxy_.phase = Proxy::Phase::kUnknown;
-  const Tangent tangent = tangent_at(near.feature, trial_m_, {});
-  const Vec3 step = tangent.normal * __builtin_copysignf(kTowards, tangent.distance_m) + kAside;
-  proxy_.position_m = trial_m_ = trial_m_ - step * near.lower_m;
+  Vec3 step_m;
+  if (near.is_exact) {
+    step_m = round_crease(near, trial_m_ - near.feature.corner[0]);
+  } else {
+    const Tangent tangent = tangent_at(near.feature, trial_m_, {});
+    const Vec3 step = tangent.normal * __builtin_copysignf(kTowards, tangent.distance_m) + kAside;
+    step_m = step * -near.lower_m;
+  }
+  proxy_.position_m = trial_m_ = trial_m_ + step_m;
   is_searching_ = near.lower_m > kClearance * size_m_ && work_left_ > 0;
   is_over_ = !is_searching_;
 }
