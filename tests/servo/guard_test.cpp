@@ -260,3 +260,15 @@ TEST(GuardOfTorques_WithoutSaneCeilings_PassesNone) {
   TorqueRig wrong;
   CHECK(!wrong.turn(all[0], 0, 0));
 }
+
+// As where a fault is cleared while a linkage still lets its weight go.
+TEST(GuardClear_WhileTorquesFall_DoesNotForgetThem) {
+  TorqueRig rig;
+  rig.rise_to(0.08f);
+  CHECK(rig.turn(0.06f, 0, 0, false));
+  servo::guard_clear(rig.state);
+  CHECK(rig.turn(0.04f, 0, 0, false));
+  CHECK(!rig.turn(0.06f, 0, 0, false));
+  servo::guard_clear(rig.state);
+  CHECK(!rig.turn(0.06f, 0, 0));
+}

@@ -286,6 +286,7 @@ void set_ceilings(TorqueCeilings& ceilings, const float (&max_torque_Nm)[kGuarde
 }
 
 [[gnu::cold]] void guard_clear(GuardState& state) {
+  if (remembers(state)) return;  // torques may still fall
   GuardState armed;
   for (uint32_t k = 0; k < kGuardLimitCount; ++k) {
     armed.limit[k] = state.limit[k];

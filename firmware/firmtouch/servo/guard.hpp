@@ -94,8 +94,8 @@ void set_heat(HeatGuard& heat, const float (&continuous_Nm)[kGuardedMotors],
 /// Error: x within 0.2 % and tick_period_s / (2 time), with torques held during a tick.
 bool guard_heat(GuardState& state, HeatGuard& heat, float (&motor_Nm)[kGuardedMotors]);
 
-/// Arms it again with its limits. If those were corrupted it trips again at once; then only a new
-/// GuardState with its limits set helps.
+/// Arms it again with its limits; without effect where it did not trip. If the limits were
+/// corrupted it trips again at once; then only a new GuardState with its limits set helps.
 void guard_clear(GuardState& state);
 
 }  // namespace firmtouch::servo
