@@ -116,7 +116,7 @@ TEST(SplineProxy_AlongTheAxisOfATorus_IsNotStuckWithLittleWork) {
 
 // Beyond an edge no normal gives the side where the tool begins.
 TEST(SplineProxy_BeginsBesideAnyEdge_IsCertainWithinTenTicks) {
-  for (const float lean : {0.0f, 0.5f, 3.0f}) {  // edges of 90, 63 and 18 degrees
+  for (const float lean : {0.0f, 0.5f, 3.0f, 10.0f}) {  // edges of 90, 63, 18 and 6 degrees
     const Surface surface = cube(0, wide(lean));
     scene::SplineObject object;
     object.surface = &surface.view;
@@ -125,11 +125,11 @@ TEST(SplineProxy_BeginsBesideAnyEdge_IsCertainWithinTenTicks) {
     uint32_t begun = 0, unknown = 0, wrong = 0;
     for (int i = 0; i < 3000; ++i) {
       const auto any_m = [&] { return static_cast<float>(random.between(-0.08, 0.08)); };
-      const math::Vec3 hand_m{any_m(), any_m(), any_m()};
+      const math::Vec3 hand_m{any_m() * (1.0f + 0.25f * lean), any_m(), any_m()};
       const float most_m =
           std::fmax(std::fmax(std::fabs(hand_m.x - lean * hand_m.y), std::fabs(hand_m.y)),
                     std::fabs(hand_m.z));
-      if (std::fabs(most_m - 0.02f) < 0.003f) continue;
+      if (std::fabs(most_m - 0.02f) < 0.001f * (1.0f + lean)) continue;  // the tool touches
       spline::Hint hint;
       scene::SplineTouched shape{object, hint};
       scene::Proxy proxy;

@@ -10,11 +10,11 @@ using math::Vec3;
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
-constexpr float kFree = 0.9f;
-constexpr float kBeyond = 0.1f;
 
-// Beside a crease, where exact answers give no side: round it to the normal of a face that meets
-// there and a little beyond, above that face, as far as is free.
+// The way round a crease, beside which exact answers give no side: to the normal of a face that
+// meets there and a part of the distance beyond, so that it ends above that face; no farther than a
+// part of what is free.
+constexpr float kBeyond = 0.1f, kFree = 0.9f;
 Vec3 round_crease(const Near& near, Vec3 off_m) {
   const float high_m = math::dot(off_m, near.outward), most_m = kFree * near.lower_m;
   const float up_m = __builtin_copysignf(near.lower_m, high_m) + kBeyond * high_m;

@@ -11,8 +11,9 @@ namespace {
 using math::Vec3;
 
 // From this cosine on between the normal and the line to the closest point the normal gives the
-// sign, as in penalty contact.
-constexpr float kAlong = 0.98f;
+// sign: within 1.1 degrees. More would take the far face of a sharp edge for the near one, and what
+// is beyond that edge for inside.
+constexpr float kAlong = 0.9998f;
 // What a bound loses to rounding within ten extents, in extents.
 constexpr float kMargin = 1e-5f;
 
