@@ -8,7 +8,8 @@ namespace firmtouch::math {
 namespace {
 
 // Relative to the goal's distance: a point that is outside of a plane by less is accepted.
-constexpr float kTolerance = 1e-5f;
+constexpr float kTolerance = 0x1p-21f;
+constexpr float kLoosely = 20.0f;  // so many times that, where rounding leaves planes no better
 // Squared sine of the least angle between planes that are solved together.
 constexpr float kMinSine2 = 1e-10f;
 
@@ -109,13 +110,15 @@ class Search {
 
   NearestInPlanes run() {
     // The goal itself is only the answer if it violates nothing.
-    float least_m = active_.count == 0 ? 0.0f : tolerance_m_;
+    float out_m = active_.count == 0 ? 0.0f : tolerance_m_;
     for (uint32_t step = 0;; ++step) {
       uint8_t violated = 0;
-      const bool is_found = !find_violated(least_m, violated);
-      least_m = tolerance_m_;
-      if (is_found || step == kMaxSteps || !add(violated))
-        return {reach_.point_m(), active_, is_found};
+      NearestInPlanes best{reach_.point_m(), active_, !find_violated(out_m, violated)};
+      if (best.is_found) return best;
+      best.is_found = out_m <= kLoosely * tolerance_m_;
+      if (step == kMaxSteps || !add(violated))
+        return best.is_found ? best : NearestInPlanes{reach_.point_m(), active_, false};
+      out_m = tolerance_m_;
     }
   }
 
@@ -133,14 +136,14 @@ class Search {
     reach_.drop_to(0);
   }
 
-  // The plane that is violated most. Result: false if none is by more than `least_m`.
-  bool find_violated(float least_m, uint8_t& violated) const {
+  // The plane that is violated most. Result: false if none is by more than `out_m`.
+  bool find_violated(float& out_m, uint8_t& violated) const {
     const Vec3 point_m = reach_.point_m();
     bool is_any = false;
     for (uint32_t i = 0; i < count_; ++i) {
-      const float out_m = planes_[i].offset_m - dot(planes_[i].normal, point_m);
-      if (out_m > least_m && is_finite(planes_[i]))
-        least_m = out_m, violated = static_cast<uint8_t>(i), is_any = true;
+      const float by_m = planes_[i].offset_m - dot(planes_[i].normal, point_m);
+      if (by_m > out_m && is_finite(planes_[i]))
+        out_m = by_m, violated = static_cast<uint8_t>(i), is_any = true;
     }
     return is_any;
   }
