@@ -39,6 +39,7 @@ struct ObjectsTouch {
   ProxyTouch touch;
   math::Vec3 anchor_m;      // the proxy at the end of the last tick, device frame
   math::Vec3 bounds_at_m;   // where left_m of the pairs holds, device frame
+  float bounds_loss_m = 0;  // that bounds_at_m may be off
   float full_radius_m = 0;  // of a proxy that objects have pushed into less room; 0: none
   uint8_t carrier = kNoObject;
   uint8_t nearest = kNoObject;
@@ -123,6 +124,7 @@ class ObjectsTick {
   Material material_of(uint32_t i) const;
   bool end_carry(const Bounds& bounds);
   void shrink(float room_m);
+  bool knows(const Feature& feature) const;
   bool is_better(const Near& near) const;
   Feature in_frame(const Feature& feature) const;
   uint8_t touched() const;

@@ -10,6 +10,8 @@ using math::Vec3;
 
 namespace {
 
+constexpr float kAsNear = 1e-6f;  // of the size of the scene
+
 // A direction from one frame to another. Inlined it takes 80 B more.
 [[gnu::noinline]] void turn(const math::RigidTransform& from, const math::RigidTransform& to,
                             Vec3& way) {
@@ -61,10 +63,23 @@ bool ObjectsTick::next() {
   }
 }
 
-// Of a tool that is inside of several objects: the one that it is deepest in.
+bool ObjectsTick::knows(const Feature& feature) const {
+  return index_of(feature, proxy_, size_m_) < proxy_.feature_count;
+}
+
+// Of two that are as near and let the proxy go there: the one that it does not know yet. Held by
+// one object it would cross a joint of another's triangles, and lean over the one behind it. Of a
+// tool that is inside of several objects: the one that it is deepest in.
 bool ObjectsTick::is_better(const Near& near) const {
   if (answered_ == 0) return true;
-  if (proxy_.phase == Proxy::Phase::kFree) return near.lower_m < nearest_.lower_m;
+  if (proxy_.phase == Proxy::Phase::kFree) {
+    const float more_m = near.lower_m - nearest_.lower_m;
+    const float least_m = math::smaller(near.lower_m, nearest_.lower_m);
+    if (least_m < needed_m_ || !(__builtin_fabsf(more_m) <= kAsNear * size_m_))
+      return more_m < 0.0f;
+    const bool is_known = knows(near.feature), was_known = knows(nearest_.feature);
+    return is_known == was_known ? more_m < 0.0f : was_known;
+  }
   const bool is_inside = near.sign < 0, was_inside = nearest_.sign < 0;
   if (is_inside || was_inside)
     return is_inside && (!was_inside || near.distance_m > nearest_.distance_m);
@@ -97,12 +112,12 @@ void ObjectsTick::take(const Near& near) {
   const uint32_t steps = nearest_.steps + near.steps, work = nearest_.work + near.work;
   Near answer = near;
   key_m_[i] = answer.lower_m = bound_m(i, at_);
+  answer.feature.object = static_cast<uint8_t>(i);
+  answer.feature = in_frame(answer.feature);
   if (is_better(answer)) {
     touch_.nearest = static_cast<uint8_t>(i);
     touch_.seen_at_m = query_.x_m;
     touch_.seen_m = near.distance_m;
-    answer.feature.object = static_cast<uint8_t>(i);
-    answer.feature = in_frame(answer.feature);
     turn(set_.object[i].pose, pose_of(at_.frame), answer.outward);
     nearest_ = answer;
   }

@@ -36,6 +36,13 @@ bool is_same(const Feature& a, const Feature& b, float within_m) {
 
 }  // namespace
 
+uint32_t index_of(const Feature& feature, const Proxy& proxy, float size_m) {
+  uint32_t at = 0;
+  for (; at < proxy.feature_count; ++at)
+    if (is_same(proxy.feature[at], feature, kSameFeature * size_m)) break;
+  return at;
+}
+
 ProxyMove::ProxyMove(const ProxySettings& settings, float size_m, Vec3 goal_m, Proxy& proxy)
     : settings_(settings),
       proxy_(proxy),
@@ -255,9 +262,7 @@ bool ProxyMove::aim() {
 // Result: false if it was known, and its plane, too.
 bool ProxyMove::keep(const Feature& feature) {
   if (feature.kind == Feature::Kind::kNone) return false;
-  uint32_t at = 0;
-  for (; at < proxy_.feature_count; ++at)
-    if (is_same(proxy_.feature[at], feature, kTolerance * size_m_)) break;
+  uint32_t at = index_of(feature, proxy_, size_m_);
   if (at < proxy_.feature_count && (taken_ >> at & 1u) != 0) return false;
   if (at == proxy_.feature_count && at < kMaxFeatures) {
     ++proxy_.feature_count;

@@ -64,6 +64,11 @@ struct Proxy {
   Phase phase = Phase::kUnknown;
 };
 
+/// Relative to the size of the shape: features that differ by less are the same.
+constexpr float kSameFeature = 1e-6f;
+/// Index in the working set; feature_count: none is the same.
+uint32_t index_of(const Feature& feature, const Proxy& proxy, float size_m);
+
 /// Bounds of the distance between shape and proxy, or hand where there is no proxy; without sign.
 struct Bounds {
   float lower_m, upper_m;
