@@ -179,6 +179,29 @@ TEST(Tool_AtTwoRates_TorqueIsThatOfTheModelInUse) {
   CHECK_EQ(bar.output.faults, 0u);
 }
 
+// Three of eight spheres find the box in a model, and each model lasts for 20 ticks: meanwhile it
+// is uncertain. The motors come on with the first one that is certain.
+TEST(Tool_EnabledAtTwoRatesWhileItFindsTheSurface_WaitsForAllSpheres) {
+  Spheres eight;
+  for (int i = 0; i < 8; ++i) eight.push_back({{0, 0, 0.004f * static_cast<float>(i)}, 0.001f});
+  Placed<ToolController> tool(scene_with(eight));
+  tool.input.command = 1 + params::kModelAge;
+  tool.input.command_value = 50;
+  uint32_t waited = 0;
+  for (uint32_t i = 0; i < 800; ++i) {
+    const float high_m = i < 200 ? 0.004f : 0.004f - 0.00001f * static_cast<float>(i - 200);
+    tool.flags = tool.controller.model_flags();
+    tool.tick({0, 0, kHalf_m + high_m});
+    if (i % 20 == 2) tool.controller.make_model();
+    CHECK_EQ(tool.output.faults, 0u);
+    if (i < 10 || (tool.output.state & record::kStateUncertain) == 0) continue;
+    ++waited;
+    CHECK_EQ(tool.output.state & record::kStateServoMask, 0u);
+  }
+  CHECK_GE(waited, 30u);
+  CHECK_LE(std::fabs(wide(tool.output.force_N[2]) - 100 * 0.003), 0.03);
+}
+
 TEST(Tool_AssetsThatDoNotFit_AreRejectedByName) {
   static ToolController controller;
   const auto rule = [](const std::vector<uint8_t>& bytes) {

@@ -238,6 +238,48 @@ TEST(EnablingOverAFaultThatStandsPushesInNoTick) {
   CHECK_EQ(output.force_N.z, 0.0f);
 }
 
+// Models are uncertain while a tool of several spheres finds its surface. At two rates one of them
+// lasts for 20 ticks: 27 of 300 calm hands were refused in the tick that enabled them.
+TEST(Enabling_UncertainModel_WaitsForACertainOneWithoutForce) {
+  servo::Settings at_once = kSettings;
+  at_once.ramp_in_s = 0;
+  servo::LocalModel uncertain = floor_model();
+  uncertain.is_uncertain = true;
+  for (int k = 0; k < 2; ++k) {
+    const bool becomes_certain = k == 0;
+    servo::State state;
+    servo::StepInput input = at(-0.001f, 0);
+    input.enable = false;
+    for (int tick = 0; tick < 300; ++tick) (void)servo::step(state, at_once, uncertain, input);
+    input.enable = true;
+    for (int tick = 0; tick < 199; ++tick) {
+      const servo::StepOutput output = servo::step(state, at_once, uncertain, input);
+      CHECK_EQ(output.faults, 0u);
+      CHECK_EQ(output.force_N.z, 0.0f);
+      CHECK(output.mode == servo::Mode::kOff);
+    }
+    const servo::LocalModel last = becomes_certain ? floor_model() : uncertain;
+    const servo::StepOutput output = servo::step(state, at_once, last, input);
+    CHECK_EQ(output.faults, becomes_certain ? 0u : servo::kFaultContact);
+    CHECK_EQ(output.force_N.z > 0, becomes_certain);
+    CHECK(output.mode == (becomes_certain ? servo::Mode::kOn : servo::Mode::kFault));
+  }
+}
+
+TEST(UncertainModel_WhileOn_IsAFaultIn10ms) {
+  servo::State state = pressed(floor_model());
+  servo::LocalModel uncertain = floor_model();
+  uncertain.is_uncertain = true;
+  for (int times = 0; times < 3; ++times) {  // a certain one begins the time again
+    for (int tick = 0; tick < 9; ++tick)
+      CHECK_EQ(servo::step(state, kSettings, uncertain, at(-0.001f, 100)).faults, 0u);
+    if (times < 2) (void)servo::step(state, kSettings, floor_model(), at(-0.001f, 100));
+  }
+  const servo::StepOutput output = servo::step(state, kSettings, uncertain, at(-0.001f, 100));
+  CHECK_EQ(output.faults, servo::kFaultContact);
+  CHECK(output.mode == servo::Mode::kRampOut);
+}
+
 TEST(SettingsBeyondTheCeilingAreAFaultThatCutsAtOnce) {
   for (int field = 0; field < 3; ++field) {
     servo::State state = pressed(floor_model());

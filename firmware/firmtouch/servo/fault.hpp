@@ -22,8 +22,8 @@ constexpr uint32_t kFaultGuard = 1u << 12;         // the guard stopped a force
 // Ticks take 0.9 of tick_period_s or more: the main loop would stand still (clock_watch.hpp). While
 // it is latched, no tick queries the geometry.
 constexpr uint32_t kFaultOverload = 1u << 13;
-// For 10 ms the work budget did not suffice to certify the proxy, or a tool that began inside did
-// not come out in 10 s.
+// For 10 ms, or for 0.2 s before the motors come on, the work budget did not suffice to certify the
+// proxy; or a tool that began inside did not come out in 10 s.
 constexpr uint32_t kFaultContact = 1u << 14;
 // For 10 ms contact has given the hand 1 mJ more than energy_reservoir_J.
 constexpr uint32_t kFaultEnergy = 1u << 15;

@@ -16,6 +16,8 @@ constexpr float kMinLimit_N = 1e-9f;
 
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
+bool is_on(Mode mode) { return mode == Mode::kRampIn || mode == Mode::kOn; }
+
 bool is_sound(const Settings& settings) {
   return is_between(settings.force_limit_N, 0.0f, kMaxForceLimit_N) &&
          is_between(settings.slew_limit_N_per_s, 0.0f, kMaxSlewLimit_N_per_s) &&
@@ -37,8 +39,8 @@ Vec3 shorten(Vec3 a, float most) {
   return most >= kMinLimit_N ? a * share_within(a, most) : Vec3{};
 }
 
-bool lasts(uint32_t ticks, const Settings& settings) {
-  return static_cast<float>(ticks) * settings.tick_period_s >= kLasting_s;
+bool lasts(uint32_t ticks, const Settings& settings, float most_s = kLasting_s) {
+  return static_cast<float>(ticks) * settings.tick_period_s >= most_s;
 }
 
 uint32_t seen_faults(const State& state, const Settings& settings, const LocalModel& model,
@@ -51,15 +53,14 @@ uint32_t seen_faults(const State& state, const Settings& settings, const LocalMo
     faults |= kFaultNotFinite;
   }
   if (!is_sound(model)) faults |= kFaultModel;
-  if (lasts(state.uncertain_ticks, settings)) faults |= kFaultContact;
+  const float uncertain_s = state.mode == Mode::kOff ? kEnabling_s : kLasting_s;
+  if (lasts(state.uncertain_ticks, settings, uncertain_s)) faults |= kFaultContact;
   if (model.is_squeezed) faults |= kFaultSqueezed;
   if (lasts(state.energy.overdrawn_ticks, settings)) faults |= kFaultEnergy;
   // The difference modulo 2^32, so that a tick counter that wraps is no event.
   if (static_cast<int32_t>(input.tick - model.expires_tick) > 0) faults |= kFaultStaleModel;
   return faults;
 }
-
-bool is_on(Mode mode) { return mode == Mode::kRampIn || mode == Mode::kOn; }
 
 // noinline: in flash once, not twice.
 __attribute__((noinline)) uint32_t ramp_out_ticks(const Settings& settings) {
@@ -82,7 +83,7 @@ void change_mode(State& state, const Settings& settings, bool enable) {
     if (state.ramp_out_left == 0) state.mode = state.faults != 0 ? Mode::kFault : Mode::kOff;
   } else if (state.faults != 0) {
     state.mode = Mode::kFault;
-  } else if (state.mode == Mode::kOff && enable) {
+  } else if (state.mode == Mode::kOff && enable && state.uncertain_ticks == 0) {
     state.mode = Mode::kRampIn;
     state.ticks_on = 0;
     state.part_N = {};
@@ -144,16 +145,12 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   if (input.clear_faults && !input.enable) {
     state = State{};
   }
-  if (!model.is_uncertain) {
-    state.uncertain_ticks = 0;
-  } else if (state.uncertain_ticks < UINT32_MAX) {
-    ++state.uncertain_ticks;
-  }
+  // In the ticks that enable, the motors count as on already: a fault that stands keeps them off.
+  const bool counts = is_on(state.mode) || (input.enable && state.mode == Mode::kOff);
+  state.uncertain_ticks = model.is_uncertain && counts ? state.uncertain_ticks + 1 : 0;
   const float stretch_m = move_spring(state, settings, model.spring, input.position_m);
   uint32_t faults = seen_faults(state, settings, model, input);
-  // In the tick that enables, the motors count as on already: a fault that stands keeps them off.
-  const bool enabling = state.mode == Mode::kOff && input.enable;
-  if (!is_on(state.mode) && !enabling) faults &= ~kOnlyWhileOn;
+  if (!counts) faults &= ~kOnlyWhileOn;
   state.faults |= faults;
   change_mode(state, settings, input.enable);
 

@@ -13,6 +13,8 @@ constexpr float kRampOut_s = 0.008f;
 
 // So long models may be uncertain before kFaultContact, and energy overdrawn before kFaultEnergy.
 constexpr float kLasting_s = 0.0099f;
+// Motors that are enabled while the model is uncertain stay off until one is certain, so long.
+constexpr float kEnabling_s = 0.1999f;
 
 // Settings beyond these are kFaultSettings: no device that a hand holds needs more, and most
 // flipped bits of a setting exceed them.
@@ -22,7 +24,7 @@ constexpr float kMaxTickPeriod_s = 0.1f;
 constexpr float kMaxReservoir_J = 1000.0f;
 
 enum class Mode : uint8_t {
-  kOff,     // not enabled: no force
+  kOff,     // not enabled, or no model is certain yet: no force
   kRampIn,  // enabled a moment ago: the force grows in over ramp_in_s
   kOn,
   kRampOut,  // disabled, or a fault: the last force falls to 0
@@ -63,7 +65,7 @@ struct State {
   math::Vec3 part_N;   // while on, what of it planes and guide make; in a ramp out, where it began
   math::Vec3 proxy_m;
   bool has_proxy = false;
-  uint32_t uncertain_ticks = 0;  // of the models, without a break
+  uint32_t uncertain_ticks = 0;  // of the models while enabled, without a break
   Energy energy;
 };
 
