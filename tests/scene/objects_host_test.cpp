@@ -1,5 +1,6 @@
 // The theorems of a proxy among several objects that move: every move is cast against each object,
 // in that object's frame.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -29,10 +30,10 @@ math::Mat3 any_rotation(Draw& draw) {
   return turned.pose.rotation;
 }
 
-// Objects that wander about the origin, turning, now and then at another pace.
-void move_about(ObjectsRig& rig, Draw& draw, double speed_mps) {
+// Objects that wander about a place, turning, now and then at another pace.
+void move_about(ObjectsRig& rig, Draw& draw, Vec3 place_m, double speed_mps) {
   for (scene::Object& object : rig.objects) {
-    const Vec3 at_m = object.pose.translation_m;
+    const Vec3 at_m = object.pose.translation_m - place_m;
     if (draw.below(300) == 0) {
       object.twist.velocity_mps = draw.within(speed_mps);
       object.twist.turn_rad_per_s = draw.within(10 * speed_mps);
@@ -118,6 +119,61 @@ TEST(Objects_SplineMeshAndBall_AreTouchedByOneProxy) {
   for (const uint32_t ticks : touched) CHECK_GE(ticks, 100u);
 }
 
+// Two balls that turn at up to 9 m: the place goes from the frame of one to that of the other.
+TEST(Objects_AnyPosesFarFromTheMiddle_BoundsAreTrue) {
+  struct Balls {
+    scene::SphereTouched ball{{}, 0.02f};
+    float size_m() const { return 0.3f; }
+    scene::Near near(uint32_t, Vec3 x_m, query::Budget budget, float needed_m) {
+      return ball.near(x_m, budget, needed_m);
+    }
+  } balls;
+  const auto wide = [](float a) { return static_cast<double>(a); };
+  Draw draw(29);
+  double loosest_m = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const Vec3 place_m = draw.within(i % 2 == 0 ? 9 : 0.3);
+    scene::Object objects[2] = {at(place_m + draw.within(0.1)), at(place_m + draw.within(0.1))};
+    for (scene::Object& object : objects) object.pose.rotation = any_rotation(draw);
+    scene::ObjectPair pairs[2];
+    for (uint32_t k = 0; k < 2; ++k) pairs[k].pose = objects[k].pose;
+    scene::ObjectsTouch touch;
+    touch.carrier = 0;
+    touch.touch.proxy.phase = scene::Proxy::Phase::kFree;
+    touch.touch.proxy.radius_m = 1e-4f;
+    const Vec3 x_m = touch.touch.proxy.position_m = draw.within(0.1);
+    scene::ProxyContact contact;
+    contact.is_on = contact.has_proxy = true;
+    contact.passed_s = 0.001f;
+    contact.settings.radius_m = 1e-4f;
+    contact.position_m = contact.proxy_m = touch.anchor_m = math::apply(objects[0].pose, x_m);
+    scene::ObjectsTick tick(contact, {objects, pairs, 2}, balls.size_m(), touch);
+    while (tick.carry()) {
+      const scene::ObjectQuery& q = tick.query();
+      tick.take_bound(balls.near(q.object, q.x_m, q.budget, q.needed_m));
+    }
+    if (touch.carrier != 0) continue;  // it began in a ball
+    scene::NearestObject<Balls> nearest{tick, balls};
+    const float lower_m = nearest.near(x_m, query::kUnlimited, 1e-4f).lower_m;
+    double off2_m2 = 0;
+    const math::RigidTransform &from = objects[0].pose, &to = objects[1].pose;
+    const Vec3 row[3] = {from.rotation.row[0], from.rotation.row[1], from.rotation.row[2]};
+    const float from_m[3] = {from.translation_m.x, from.translation_m.y, from.translation_m.z};
+    const float to_m[3] = {to.translation_m.x, to.translation_m.y, to.translation_m.z};
+    for (int k = 0; k < 3; ++k) {
+      const double off_m = wide(row[k].x) * wide(x_m.x) + wide(row[k].y) * wide(x_m.y) +
+                           wide(row[k].z) * wide(x_m.z) + wide(from_m[k]) - wide(to_m[k]);
+      off2_m2 += off_m * off_m;
+    }
+    const double truth_m =
+        std::min(std::sqrt(off2_m2), ProxyRig::distance(x_m, {})) - wide(balls.ball.radius_m);
+    if (truth_m < 0) continue;
+    CHECK_LE(wide(lower_m), truth_m + 1e-8);
+    loosest_m = std::max(loosest_m, truth_m - wide(lower_m));
+  }
+  CHECK_LE(loosest_m, 4e-6);
+}
+
 TEST(Objects_AnyMotionHandAndBudget_NeverCrossASurface) {
   const uint32_t budgets[] = {8, 64, 640, 1u << 20};
   BrokenAmongObjects all;
@@ -127,9 +183,11 @@ TEST(Objects_AnyMotionHandAndBudget_NeverCrossASurface) {
     rig.add_shape(tools::make_part(1, 2000));
     rig.add_shape(two_walls());
     rig.add_shape(plate(0.0001f), false);
+    // Up to 30 sizes of the scene, where coordinates round by as much as the clearance.
+    const Vec3 aside_m = Vec3{0.5f, -0.3f, 0.6f} * (seed > 12 ? 16.0f : seed > 8 ? 1.0f : 0.0f);
     const uint32_t count = 1 + draw.below(seed % 4 == 0 ? 16 : 4);
     for (uint32_t i = 0; i < count; ++i) {
-      scene::Object object = at(draw.within(0.1));
+      scene::Object object = at(aside_m + draw.within(0.1));
       object.pose.rotation = any_rotation(draw);
       object.friction_static = object.friction_dynamic = draw.between(0, 1);
       rig.add(draw.below(3), object);
@@ -140,11 +198,11 @@ TEST(Objects_AnyMotionHandAndBudget_NeverCrossASurface) {
     BrokenAmongObjects broken;
     Vec3 hand_m{0, 0, 0.15f}, step_m;
     for (uint32_t tick = 0; tick < 6000; ++tick) {
-      move_about(rig, draw, seed % 3 == 0 ? 2.0 : 0.3);
+      move_about(rig, draw, aside_m, seed % 3 == 0 ? 2.0 : 0.3);
       if (tick % 50 == 0) step_m = draw.within(draw.below(8) == 0 ? 0.01 : 0.001);
       hand_m = hand_m + step_m;
       if (math::length(hand_m) > 0.15f) step_m = hand_m * -0.005f;
-      rig.tick(hand_m, broken);
+      rig.tick(aside_m + hand_m, broken);
     }
     firmtouch::test::note("seed", seed);
     CHECK_EQ(broken.crossings, 0u);
