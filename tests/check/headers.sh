@@ -16,32 +16,46 @@ private_headers() {
     }' {} +
 }
 
+compile() {  # compile OPTION... <SOURCE
+  ${CXX:-g++} -std=c++17 -O0 -ffreestanding -fno-exceptions -fno-rtti -Wall -Wextra -Wconversion -Wdouble-promotion -Wfloat-equal \
+    -Wshadow -Werror -Ifirmware -Ihal -x c++ "$@" -
+}
+arithmetic_of() {  # arithmetic_of HEADER...: names the functions with floating-point arithmetic
+  printf '#include "%s"\n' "$@" | compile -S -fkeep-inline-functions -o "$work/out.s" || return
+  awk '/^[_A-Za-z].*:$/ { name = $1 }
+    /^[ \t]+v?(add|sub|mul|div|sqrt|fmadd)[0-9]*s[sd][ \t]/ || /^[ \t]+f(add|sub|mul|div|madd|msub|sqrt)[ \t]/ { print name }
+    ' "$work/out.s" | sort -u | tr '\n' ' '
+}
+
 check() {
   work=$(mktemp -d) || return 1
   private_headers | LC_ALL=C sort -u >"$work/private"
   bad=0
-  for header in $(find firmware/firmtouch hal/firmtouch -name '*.hpp' | LC_ALL=C sort); do
-    case "${only:-$header}" in "$header") ;; *) continue ;; esac
-    ! grep -qx "$header" "$work/private" || continue
-    if ! printf '#include "%s"\n' "${header#*/}" | ${CXX:-g++} -std=c++17 -O0 -ffreestanding -fno-exceptions -fno-rtti -fkeep-inline-functions -Wall -Wextra \
-      -Wconversion -Wdouble-promotion -Wfloat-equal -Wshadow -Werror -Ifirmware -Ihal \
-      -x c++ -S -MMD -MF "$work/uses" -o "$work/out.s" -; then
+  headers=$(find firmware/firmtouch hal/firmtouch -name '*.hpp' | grep -x "${only:-.*}" | grep -vxF -f "$work/private" | LC_ALL=C sort)
+  : >"$work/uses"
+  for header in $headers; do
+    if printf '#include "%s"\n' "${header#*/}" | compile -fsyntax-only -MMD -MF "$work/use" -MT "$header"; then
+      cat "$work/use" >>"$work/uses"
+    else
       echo "$header: does not compile alone"
-      bad=1
-      continue
-    fi
-    for used in $(tr -s ' \\' '\n' <"$work/uses" | grep -xF -f "$work/private"); do
-      echo "$header: public, and reaches $used, which is for the library's own units"
-      bad=1
-    done
-    arithmetic=$(awk '/^[_A-Za-z].*:$/ { name = $1 }
-      /^[ \t]+v?(add|sub|mul|div|sqrt|fmadd)[0-9]*s[sd][ \t]/ || /^[ \t]+f(add|sub|mul|div|madd|msub|sqrt)[ \t]/ { print name }
-      ' "$work/out.s" | sort -u | tr '\n' ' ')
-    if [ -n "$arithmetic" ]; then
-      echo "$header: floating-point arithmetic in a public header, in ${arithmetic}move it to a .cpp file"
       bad=1
     fi
   done
+  tr -s ' \\' '\n' <"$work/uses" | awk '
+    NR == FNR { private[$1] = 1; next }
+    sub(/:$/, "") { header = $1 }
+    $1 in private { print header ": public, and reaches " $1 ", which is for the library\047s own units"; bad = 1 }
+    END { exit bad }' "$work/private" - || bad=1
+  [ $bad = 0 ] || headers=
+  # All of them at once; one by one where there is something to find.
+  set -- $(printf '%s\n' $headers | sed 's|^[^/]*/||')
+  if [ $# -gt 0 ] && [ -n "$(arithmetic_of "$@" || echo unknown)" ]; then
+    for header in $headers; do
+      arithmetic=$(arithmetic_of "${header#*/}")
+      [ -z "$arithmetic" ] || echo "$header: floating-point arithmetic in a public header, in ${arithmetic}move it to a .cpp file"
+    done
+    bad=1
+  fi
   for file in $(find tests/consumer firmware/app -name '*.?pp' 2>/dev/null); do
     for used in $(sed -n 's/^#include "\(firmtouch\/.*\)".*/firmware\/\1/p' "$file"); do
       if grep -qx "$used" "$work/private"; then
