@@ -73,22 +73,42 @@ struct InHoming {
   HomingTally before, later;
 };
 
-InHoming fail_in_homing(const std::string& machine, HomingCase what, uint32_t every) {
+using InHomings = std::array<InHoming, kHomings>;
+
+void fail_in_homing(const std::string& machine, uint32_t seed, uint32_t every, std::mutex& mutex,
+                    InHomings& all) {
   const tools::LinkageDevice device = tools::read_device(machine, tools::read_device_text(machine));
-  InHoming all;
-  for (uint32_t seed = 1; seed <= kSeeds; ++seed) {
-    add(simulate_homing(device, what, seed), all.before);
-    const double end_s = simulate_homing(device, HomingCase::kGood, seed).seconds;
+  const auto put = [&](const HomingRun& run, HomingTally& to) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    add(run, to);
+  };
+  const double end_s = simulate_homing(device, HomingCase::kGood, seed).seconds;
+  for (uint32_t i = 0; i < kHomings; ++i) {
+    put(simulate_homing(device, kInHoming[i], seed), all[i].before);
     for (uint32_t tick = 37 * seed % every; tick * 1e-3 < end_s; tick += every)
-      add(simulate_homing(device, what, seed, tick * 1e-3), all.later);
+      put(simulate_homing(device, kInHoming[i], seed, tick * 1e-3), all[i].later);
   }
-  return all;
+}
+
+// Every failure in one touch. A rig is made once: what it bakes takes as long as the runs.
+void fail_in_touch(const std::string& machine, uint32_t touch, uint64_t number, uint32_t every,
+                   const std::string& only, Tallies& all) {
+  FailureRig rig(machine, touch);
+  for (uint32_t i = 0; i < kFailureModes; ++i) {
+    const auto mode = static_cast<FailureMode>(i);
+    if (!only.empty() && only != failure_name(mode)) continue;
+    if (mode == FailureMode::kIndexAbsent && !rig.has_index()) continue;
+    const uint64_t of_all = (number * (kFailureModes + 1) + i) * kTouches + touch;
+    const uint32_t first = static_cast<uint32_t>(37 * of_all % every);  // samples differ
+    for (uint32_t tick = first; tick < rig.ticks(); tick += every)
+      for (uint32_t joint = 0; joint < rig.joints(); ++joint)
+        all[i].add(rig.run({mode, joint}, tick));
+  }
 }
 
 std::string text_of(double value) { return bench::number_text(value); }
 
-void put(const std::string& machine, const std::array<InHoming, kHomings>& homings,
-         bench::Report& report) {
+void put(const std::string& machine, const InHomings& homings, bench::Report& report) {
   std::vector<std::vector<std::string>> rows;
   uint32_t homed = 0, wrong = 0;
   double slowest_s = 0, torque_share = 0;
@@ -162,31 +182,23 @@ void study_failures(const std::vector<std::string>& machines, uint32_t every,
                     const std::string& only, const std::function<void(double)>& progress,
                     bench::Report& report) {
   std::vector<Tallies> tallies(machines.size());
-  std::vector<std::array<InHoming, kHomings>> homing(machines.size());
+  std::vector<InHomings> homing(machines.size());
   std::mutex mutex;
-  constexpr uint64_t kJobs = kTouches * kFailureModes + kHomings;  // of a machine
+  constexpr uint64_t kJobs = kTouches + kSeeds;  // of a machine
   tools::in_parallel(
       machines.size() * kJobs, tools::processors(),
       [&](uint64_t job) {
         const uint64_t machine = job / kJobs;
-        const uint32_t mode = static_cast<uint32_t>(job % kJobs / kTouches);
-        const bool is_in_homing = mode >= kFailureModes;
-        if (!only.empty() && (is_in_homing || only != failure_name(static_cast<FailureMode>(mode))))
-          return;
-        if (is_in_homing) {
-          const uint64_t which = job % kJobs - kTouches * kFailureModes;
-          homing[machine][which] = fail_in_homing(machines[machine], kInHoming[which], every);
+        const uint32_t part = static_cast<uint32_t>(job % kJobs);
+        if (part >= kTouches) {
+          if (only.empty())
+            fail_in_homing(machines[machine], part - kTouches + 1, every, mutex, homing[machine]);
           return;
         }
-        FailureRig rig(machines[machine], static_cast<uint32_t>(job % kJobs % kTouches));
-        if (static_cast<FailureMode>(mode) == FailureMode::kIndexAbsent && !rig.has_index()) return;
-        Tally tally;
-        const uint32_t first = static_cast<uint32_t>(37 * job % every);  // samples differ
-        for (uint32_t tick = first; tick < rig.ticks(); tick += every)
-          for (uint32_t joint = 0; joint < rig.joints(); ++joint)
-            tally.add(rig.run({static_cast<FailureMode>(mode), joint}, tick));
+        Tallies of_touch;
+        fail_in_touch(machines[machine], part, machine, every, only, of_touch);
         const std::lock_guard<std::mutex> lock(mutex);
-        tallies[machine][mode].add(tally);
+        for (uint32_t i = 0; i < kFailureModes; ++i) tallies[machine][i].add(of_touch[i]);
       },
       progress);
   for (size_t i = 0; i < machines.size(); ++i) {
