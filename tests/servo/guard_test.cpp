@@ -14,9 +14,9 @@ namespace {
 
 const servo::GuardLimits kLimits{8.0f, 5000.0f, 0.001f};
 
-struct Rig {
+struct GuardRig {
   servo::GuardState state;
-  Rig() { CHECK(servo::guard_set_limits(state, kLimits)); }
+  GuardRig() { CHECK(servo::guard_set_limits(state, kLimits)); }
   float motor_N[3] = {};
   bool pass(float x, float y, float z, bool may_push = true, bool cut = false) {
     motor_N[0] = x, motor_N[1] = y, motor_N[2] = z;
@@ -37,7 +37,7 @@ void check_stops(servo::GuardState& state, float force_N) {
 }  // namespace
 
 TEST(GuardLetsGoodForcesPassUnchanged) {
-  Rig rig;
+  GuardRig rig;
   CHECK(rig.pass(1.5f, -2.25f, 0.1f));
   CHECK_EQ(rig.motor_N[0], 1.5f);
   CHECK_EQ(rig.motor_N[1], -2.25f);
@@ -48,26 +48,26 @@ TEST(GuardLetsGoodForcesPassUnchanged) {
 }
 
 TEST(GuardStopsAForceAboveItsLimit) {
-  Rig rig;
+  GuardRig rig;
   CHECK(rig.pass(4.7f, 0, 0));
   CHECK(rig.pass(8.0f, 0, 0));
   CHECK(!rig.pass(8.001f, 0, 0));
   CHECK(rig.is_zero());
-  Rig diagonal;
+  GuardRig diagonal;
   CHECK(diagonal.pass(4.61f, 4.61f, 4.61f));
   CHECK(!diagonal.pass(4.63f, 4.63f, 4.63f));
 }
 
 TEST(GuardStopsAForceThatGrowsTooFast) {
-  Rig rig;
+  GuardRig rig;
   CHECK(rig.pass(5.0f, 0, 0));
-  Rig fast;
+  GuardRig fast;
   CHECK(!fast.pass(5.01f, 0, 0));
   CHECK(fast.is_zero());
-  Rig turned;
+  GuardRig turned;
   CHECK(turned.pass(4.0f, 0, 0));
   CHECK(!turned.pass(-5.01f, 0, 0));
-  Rig down;
+  GuardRig down;
   CHECK(down.pass(5.0f, 0, 0));
   CHECK(down.pass(0.01f, 0, 0));  // towards zero as fast as you like
 }
@@ -75,7 +75,7 @@ TEST(GuardStopsAForceThatGrowsTooFast) {
 TEST(Guard_StopsNaNAndInfinity) {
   for (int axis = 0; axis < 3; ++axis) {
     for (const uint32_t bits : test::kSpecialBits) {
-      Rig rig;
+      GuardRig rig;
       float motor_N[3] = {};
       motor_N[axis] = math::float_of(bits);
       const bool small =
@@ -104,7 +104,7 @@ TEST(Guard_StopsWithNaNLimits) {
 }
 
 TEST(GuardStaysTrippedUntilItIsCleared) {
-  Rig rig;
+  GuardRig rig;
   CHECK(!rig.pass(100, 0, 0));
   for (int i = 0; i < 5; ++i) {
     CHECK(!rig.pass(0.1f, 0, 0));
@@ -115,19 +115,19 @@ TEST(GuardStaysTrippedUntilItIsCleared) {
 }
 
 TEST(GuardAllowsARampOutAndNoMore) {
-  Rig rig;
+  GuardRig rig;
   CHECK(rig.pass(4.0f, 0, 0));
   int ticks = 0;
   while (rig.pass(1.0f, 0, 0, false)) ++ticks;
   CHECK_EQ(ticks, 11);  // 10 ms
-  Rig quiet;
+  GuardRig quiet;
   CHECK(quiet.pass(4.0f, 0, 0));
   for (int i = 0; i < 1000; ++i) CHECK(quiet.pass(0, 0, 0, false));
   CHECK(!quiet.pass(0.001f, 0, 0, false));
 }
 
 TEST(GuardCutsAtOnceWhereItMust) {
-  Rig rig;
+  GuardRig rig;
   CHECK(rig.pass(1, 0, 0));
   CHECK(rig.pass(0, 0, 0, true, true));
   CHECK(!rig.pass(0.5f, 0, 0, true, true));
@@ -138,13 +138,13 @@ TEST(Guard_AnyLimits_KeepsItsCeilings) {
   const servo::GuardLimits beyond[] = {
       {128.0f, 5000.0f, 0.001f}, {8.0f, 2e6f, 0.001f}, {8.0f, 5000.0f, 0.11f}};
   for (const servo::GuardLimits& limits : beyond) {
-    Rig rig;
+    GuardRig rig;
     CHECK(servo::guard_set_limits(rig.state, limits));
     CHECK(rig.pass(0, 0, 0));
     CHECK(!rig.pass(0.5f, 0, 0));
     CHECK(rig.is_zero());
   }
-  Rig most;
+  GuardRig most;
   CHECK(servo::guard_set_limits(most.state, {servo::kGuardMaxForce_N, servo::kGuardMaxSlew_N_per_s,
                                              servo::kGuardMaxPeriod_s}));
   CHECK(most.pass(99.9f, 0, 0));
@@ -157,7 +157,7 @@ TEST(GuardWithoutLimitsLetsNoForcePass) {
 }
 
 TEST(GuardKeepsItsLimitsThroughAClear) {
-  Rig rig;
+  GuardRig rig;
   CHECK(!rig.pass(100, 0, 0));
   servo::guard_clear(rig.state);
   const servo::GuardLimits limits = servo::guard_limits(rig.state);
@@ -168,7 +168,7 @@ TEST(GuardKeepsItsLimitsThroughAClear) {
 
 TEST(Guard_DamagedLimits_AreNotRepairedByClearOrNewLimits) {
   for (uint32_t bit = 0; bit < 64 * 3; ++bit) {
-    Rig rig;
+    GuardRig rig;
     uint32_t* words = bit < 96 ? rig.state.limit : rig.state.limit_complement;
     words[bit % 96 / 32] ^= 1u << (bit % 32);
     CHECK(!rig.pass(0, 0, 0));
@@ -183,7 +183,7 @@ TEST(Guard_DamagedLimits_AreNotRepairedByClearOrNewLimits) {
 
 TEST(GuardNoticesEveryFlippedBitOfItsMemoryThatMatters) {
   for (uint32_t bit = 0; bit < 32 + 64 * 3; ++bit) {
-    Rig rig;
+    GuardRig rig;
     CHECK(rig.pass(1, 1, 1));
     uint32_t* word = bit < 32 ? &rig.state.armed
                      : bit < 128
@@ -197,7 +197,7 @@ TEST(GuardNoticesEveryFlippedBitOfItsMemoryThatMatters) {
 
 namespace {
 
-struct TorqueRig : Rig {
+struct TorqueRig : GuardRig {
   servo::TorqueCeilings ceilings;
   // 0.01 N m a tick.
   TorqueRig() { servo::set_ceilings(ceilings, {0.2f, 0.3f, 0.0f}, 0.02f); }
@@ -254,7 +254,7 @@ TEST(GuardOfTorques_WithoutSaneCeilings_PassesNone) {
     other.ceilings = rig.ceilings;
     CHECK(!other.turn(0.001f, 0, 0));
   }
-  Rig none;
+  GuardRig none;
   float motor_Nm[3] = {0.001f, 0, 0};
   CHECK(!servo::guard_torques(none.state, {}, true, false, motor_Nm));
   TorqueRig wrong;
