@@ -4,8 +4,8 @@
 #include "parts/work.hpp"
 #include "registers.hpp"
 
-// TIM5 counts microseconds, TIM2 counts work. In QEMU TIM2 runs at 1 GHz: under -icount shift=0 it
-// counts one tick an instruction.
+// TIM5 counts microseconds, TIM2 counts work. In QEMU TIM2 runs at 1 GHz: under -icount shift=3 it
+// counts eight ticks an instruction.
 
 namespace firmtouch::hal {
 namespace {
