@@ -50,6 +50,7 @@ check() {
   # All of them at once; one by one where there is something to find.
   set -- $(printf '%s\n' $headers | sed 's|^[^/]*/||')
   if [ $# -gt 0 ] && [ -n "$(arithmetic_of "$@" || echo unknown)" ]; then
+    echo 'the public headers together have floating-point arithmetic, or do not compile:'
     for header in $headers; do
       arithmetic=$(arithmetic_of "${header#*/}")
       [ -z "$arithmetic" ] || echo "$header: floating-point arithmetic in a public header, in ${arithmetic}move it to a .cpp file"
