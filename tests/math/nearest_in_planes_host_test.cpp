@@ -122,8 +122,8 @@ ActivePlanes any_active(test::Xorshift& random) {
 
 TEST(NearestInPlanes_RandomPlanes_IsTheBruteForceInDouble) {
   test::Xorshift random(24);
-  uint32_t of_three = 0, still = 0;
-  for (uint32_t i = 0; i < 4000; ++i) {
+  uint32_t of_three = 0, still = 0, flat = 0;
+  for (uint32_t i = 0; i < 8000; ++i) {
     const Problem problem = make(random);
     // Every other time from what held a goal near by, or from any planes.
     ActivePlanes before = any_active(random);
@@ -144,12 +144,16 @@ TEST(NearestInPlanes_RandomPlanes_IsTheBruteForceInDouble) {
     const Wide goal = wide(problem.goal_m), off = wide(found.point_m) - goal;
     CHECK_LE(root(dot(off, off)), oracle.distance_m + 2e-7);
     CHECK_LE(oracle.distance_m, root(dot(off, off)) + 2e-7);
-    // Half of it is rounding.
-    CHECK_LE(depth_m(problem, wide(found.point_m)), 1e-6 * root(dot(goal, goal)) + 1e-12);
+    // 5e-7 of the goal, and what the test rounds; more where three planes meet at small angles.
+    const double depth = depth_m(problem, wide(found.point_m)) / root(dot(goal, goal));
+    CHECK_LE(depth, 1e-5);
+    flat += depth > 6e-7 ? 1 : 0;
     CHECK_LE(found.active.count, 3u);
     of_three += found.active.count == 3 ? 1 : 0;
   }
-  CHECK_GE(of_three, 300u);
+  CHECK_LE(flat, 8u);
+  CHECK_GE(flat, 1u);
+  CHECK_GE(of_three, 600u);
   CHECK_GE(still, 1000u);
 }
 

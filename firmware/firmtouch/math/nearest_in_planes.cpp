@@ -110,15 +110,14 @@ class Search {
 
   NearestInPlanes run() {
     // The goal itself is only the answer if it violates nothing.
-    float out_m = active_.count == 0 ? 0.0f : tolerance_m_;
+    float least_m = active_.count == 0 ? 0.0f : tolerance_m_;
+    bool is_last = false;
     for (uint32_t step = 0;; ++step) {
       uint8_t violated = 0;
-      NearestInPlanes best{reach_.point_m(), active_, !find_violated(out_m, violated)};
-      if (best.is_found) return best;
-      best.is_found = out_m <= kLoosely * tolerance_m_;
-      if (step == kMaxSteps || !add(violated))
-        return best.is_found ? best : NearestInPlanes{reach_.point_m(), active_, false};
-      out_m = tolerance_m_;
+      const bool is_found = !find_violated(least_m, violated);
+      if (is_found || is_last) return {reach_.point_m(), active_, is_found};
+      is_last = step == kMaxSteps || !add(violated);
+      least_m = is_last ? kLoosely * tolerance_m_ : tolerance_m_;
     }
   }
 
@@ -136,14 +135,14 @@ class Search {
     reach_.drop_to(0);
   }
 
-  // The plane that is violated most. Result: false if none is by more than `out_m`.
-  bool find_violated(float& out_m, uint8_t& violated) const {
+  // The plane that is violated most. Result: false if none is by more than `least_m`.
+  bool find_violated(float least_m, uint8_t& violated) const {
     const Vec3 point_m = reach_.point_m();
     bool is_any = false;
     for (uint32_t i = 0; i < count_; ++i) {
-      const float by_m = planes_[i].offset_m - dot(planes_[i].normal, point_m);
-      if (by_m > out_m && is_finite(planes_[i]))
-        out_m = by_m, violated = static_cast<uint8_t>(i), is_any = true;
+      const float out_m = planes_[i].offset_m - dot(planes_[i].normal, point_m);
+      if (out_m > least_m && is_finite(planes_[i]))
+        least_m = out_m, violated = static_cast<uint8_t>(i), is_any = true;
     }
     return is_any;
   }
@@ -235,7 +234,8 @@ Slide slide_with_friction(const HalfSpace* planes, uint32_t count, Vec3 goal_m,
   const float stop_m = left_m(way_m);
   const bool is_stuck = !(stop_m < way_m);
   const Vec3 rest_m = is_stuck ? begin_m : end_m + (begin_m - end_m) * (stop_m / way_m);
-  if (is_allowed(planes, count, rest_m, kTolerance * length(goal_m))) return {rest_m, is_stuck};
+  const float rounding_m = 4.0f * kTolerance * length(goal_m);  // of two points and their mix
+  if (is_allowed(planes, count, rest_m, rounding_m)) return {rest_m, is_stuck};
   // Another plane is in that way: straight from the origin, which is allowed as both its ends are.
   const float straight_m = length(end_m);
   const float held_back_m = left_m(straight_m);

@@ -25,7 +25,7 @@ struct ActivePlanes {
 struct NearestInPlanes {
   Vec3 point_m;
   ActivePlanes active;
-  // The planes agree to 1e-5 |goal|. If false, point_m is the best that was found.
+  // The planes agree to 1e-5 |goal|. If false, point_m is where the search ended.
   bool is_found = false;
 };
 

@@ -12,8 +12,8 @@ using math::Vec3;
 
 constexpr math::RigidTransform kUnmoved;
 
-// What a way to a frame rounds, with the sum of what lies between and the translation. Inlined it
-// takes 60 B more.
+// Rounding of a transform to or from a frame: of what is turned, and of the sum with the
+// translation. Inlined it takes 60 B more.
 [[gnu::noinline]] float loss_of_m(const math::RigidTransform& pose, Vec3 x_m) {
   return pose_loss_m(pose, x_m) + 0x1p-24f * math::length(x_m);
 }

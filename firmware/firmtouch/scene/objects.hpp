@@ -124,7 +124,7 @@ class ObjectsTick {
   Material material_of(uint32_t i) const;
   bool end_carry(const Bounds& bounds);
   void shrink(float room_m);
-  bool knows(const Feature& feature) const;
+  bool has(const Feature& feature) const;
   bool is_better(const Near& near) const;
   Feature in_frame(const Feature& feature) const;
   uint8_t touched() const;

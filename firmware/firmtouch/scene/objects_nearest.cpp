@@ -63,13 +63,15 @@ bool ObjectsTick::next() {
   }
 }
 
-bool ObjectsTick::knows(const Feature& feature) const {
-  return index_of(feature, proxy_, size_m_) < proxy_.feature_count;
+bool ObjectsTick::has(const Feature& feature) const {
+  return feature.kind == Feature::Kind::kNone ||
+         index_of(feature, proxy_, size_m_) < proxy_.feature_count;
 }
 
-// Of two that are as near and let the proxy go there: the one that it does not know yet. Held by
-// one object it would cross a joint of another's triangles, and lean over the one behind it. Of a
-// tool that is inside of several objects: the one that it is deepest in.
+// Of two that are as near and let the proxy go there: the one whose feature is not in the working
+// set. While another object holds the proxy, it would cross a joint of triangles with the plane of
+// the one behind alone, which is tilted. Of a tool that is inside of several objects: the one that
+// it is deepest in.
 bool ObjectsTick::is_better(const Near& near) const {
   if (answered_ == 0) return true;
   if (proxy_.phase == Proxy::Phase::kFree) {
@@ -77,7 +79,7 @@ bool ObjectsTick::is_better(const Near& near) const {
     const float least_m = math::smaller(near.lower_m, nearest_.lower_m);
     if (least_m < needed_m_ || !(__builtin_fabsf(more_m) <= kAsNear * size_m_))
       return more_m < 0.0f;
-    const bool is_known = knows(near.feature), was_known = knows(nearest_.feature);
+    const bool is_known = has(near.feature), was_known = has(nearest_.feature);
     return is_known == was_known ? more_m < 0.0f : was_known;
   }
   const bool is_inside = near.sign < 0, was_inside = nearest_.sign < 0;

@@ -13,7 +13,12 @@ static inline float pose_loss_m(const math::RigidTransform& pose, math::Vec3 x_m
   const math::Vec3 t_m = pose.translation_m;
   const math::Mat3& r = pose.rotation;
   const bool is_unmoved = math::dot(t_m, t_m) <= 0.0f;
-  const bool is_unturned = r.row[0].x >= 1.0f && r.row[1].y >= 1.0f && r.row[2].z >= 1.0f;
+  // A small turn leaves 1 on the diagonal.
+  const float turned = __builtin_fabsf(r.row[0].y) + __builtin_fabsf(r.row[0].z) +
+                       __builtin_fabsf(r.row[1].x) + __builtin_fabsf(r.row[1].z) +
+                       __builtin_fabsf(r.row[2].x) + __builtin_fabsf(r.row[2].y);
+  const bool is_unturned =
+      turned <= 0.0f && r.row[0].x >= 1.0f && r.row[1].y >= 1.0f && r.row[2].z >= 1.0f;
   if (is_unmoved && is_unturned) return 0.0f;
   return kPoseLoss * math::length(x_m - t_m);
 }

@@ -38,8 +38,8 @@ constexpr uint32_t kFaultCount = 18;
 constexpr uint32_t kCutAtOnce = kFaultNotFinite | kFaultModel | kFaultDrive | kFaultEmergencyStop |
                                 kFaultAsset | kFaultProbes | kFaultSettings | kFaultGuard;
 // These are latched only while the motors are on: plugging in an encoder or halting in a debugger
-// with the motors off does no harm. A cause that is present in the tick that enables is latched
-// then, and the motors stay off.
+// with the motors off does no harm. A cause that is present while they are enabled and wait for a
+// certain model is latched then, and the motors stay off.
 constexpr uint32_t kOnlyWhileOn = kFaultStaleModel | kFaultDeadline | kFaultClock | kFaultEncoder |
                                   kFaultWorkspace | kFaultContact | kFaultEnergy | kFaultSqueezed;
 
