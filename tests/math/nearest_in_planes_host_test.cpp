@@ -239,6 +239,23 @@ TEST(SlideWithFriction_Plane_TheRatioIsTheCoefficient) {
   CHECK(slide_with_friction(&floor, 1, below_m, nearest, {0.3f}).is_stuck);
 }
 
+// A wall rises from the floor where the origin is pressed on it, by little.
+TEST(SlideWithFriction_WallWhereItIsPressed_StaysInFront) {
+  const Vec3 goal_m{0.01f, 0, -0.004f};
+  const float goal = 0.01077f;
+  for (const float high : {3e-6f, 5e-6f, 1e-5f, 1e-3f, 1e-2f}) {
+    Problem problem;
+    problem.count = 2;
+    problem.plane[0] = {{0, 0, 1}, -0.001f};
+    problem.plane[1] = {{0.6f, 0, 0.8f}, -0.0008f + high * goal};
+    problem.goal_m = goal_m;
+    const NearestInPlanes nearest = nearest_in_planes(problem.plane, 2, goal_m);
+    CHECK_EQ(nearest.active.count, 1u);
+    const Slide slide = slide_with_friction(problem.plane, 2, goal_m, nearest, {10.0f});
+    CHECK_LE(depth_m(problem, wide(slide.point_m)), 2.2e-6 * static_cast<double>(goal));
+  }
+}
+
 // A hand at constant speed is ahead by friction * depth + c v / K, with c / K = T share / (1 -
 // share). A step in two parts ends where it ends in one.
 TEST(SlideWithFriction_Viscous_LagsByTheSpeed) {
