@@ -3,6 +3,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include <initializer_list>
+
 #include "firmtouch/math/nearest_in_planes.hpp"
 #include "harness/random.hpp"
 #include "harness/test.hpp"

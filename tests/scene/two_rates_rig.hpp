@@ -252,9 +252,9 @@ struct LateObjects : ObjectsRig {
     count.made(model, proxy, went_on);
   }
   // Between two models objects stand.
-  void servo_moves(Vec3 at_m) {
+  void servo_moves(Vec3 hand_m) {
     if (!model.spring.is_used || model.spring.is_held) return;
-    const Point from(model.spring.anchor_m), to(servo::proxy_at(model.spring, at_m));
+    const Point from(model.spring.anchor_m), to(servo::proxy_at(model.spring, hand_m));
     for (uint32_t i = 0; i < size(); ++i)
       count.cast(all[shape_of[i]], in_object(i, from), in_object(i, to));
   }
