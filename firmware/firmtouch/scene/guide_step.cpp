@@ -16,7 +16,7 @@ constexpr float kMaxReach_m = 1e4f;
 // A unit vector at right angles to the unit vector `u`: the cross product with the axis of its
 // least component.
 Vec3 any_across(Vec3 u) {
-  const float x = u.x < 0.0f ? -u.x : u.x, y = u.y < 0.0f ? -u.y : u.y, z = u.z < 0.0f ? -u.z : u.z;
+  const float x = __builtin_fabsf(u.x), y = __builtin_fabsf(u.y), z = __builtin_fabsf(u.z);
   const Vec3 axis = x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
   const Vec3 side = math::cross(u, axis);
   return side * (1.0f / math::length(side));
@@ -73,7 +73,7 @@ void move_carriage(const Guide& guide, const Found& found, float moved_m, float 
                    GuideTouch& touch) {
   const Drive& drive = guide.drive;
   const float step_m = drive.speed_mps * drive.tick_period_s;
-  float ahead_m = touch.ahead_m + (step_m <= 1.0f && step_m >= -1.0f ? step_m : 0.0f) - moved_m;
+  float ahead_m = touch.ahead_m + (__builtin_fabsf(step_m) <= 1.0f ? step_m : 0.0f) - moved_m;
   const float max_m = force_N / guide.material.stiffness_N_per_m;
   float low_m = -max_m, high_m = max_m;
   if (!found.is_closed && guide.ends != Ends::kContinue) {  // the carriage stops at the ends
@@ -88,14 +88,13 @@ void move_carriage(const Guide& guide, const Found& found, float moved_m, float 
 void set_drive(const Guide& guide, const Found& found, float moved_m, bool is_along,
                GuideTouch& touch, servo::GuideLine& line) {
   const Drive& drive = guide.drive;
-  const float size_N = drive.force_N < 0.0f ? -drive.force_N : drive.force_N;
+  const float size_N = __builtin_fabsf(drive.force_N);
   const float limit_N = size_N <= servo::kMaxDriveLimit_N ? size_N : 0.0f;
   if (drive.kind == Drive::Kind::kLead && guide.material.stiffness_N_per_m > 0.0f &&
       limit_N > 0.0f) {
     move_carriage(guide, found, moved_m, limit_N, touch);
     if (!is_along) return;
-    const float speed_mps =
-        drive.speed_mps <= 1e3f && drive.speed_mps >= -1e3f ? drive.speed_mps : 0.0f;
+    const float speed_mps = __builtin_fabsf(drive.speed_mps) <= 1e3f ? drive.speed_mps : 0.0f;
     line.drive_stiffness_N_per_m = guide.material.stiffness_N_per_m;
     line.drive_damping_N_s_per_m = guide.material.damping_N_s_per_m;
     line.drive_N = guide.material.stiffness_N_per_m * touch.ahead_m +
@@ -111,18 +110,34 @@ void set_drive(const Guide& guide, const Found& found, float moved_m, bool is_al
   line.drive_limit_N = limit_N;
 }
 
-// The edge of a ruler: a plane through the closest point, free on one side.
-void add_edge(const Guide& guide, Vec3 tangent, const servo::GuideLine& line,
-              servo::LocalModel& model) {
+// How deep a tool may be in an edge that has turned, or is another stretch's, for the spring to
+// store no more than it did and the hand has put in since: (F + F') / 2 times the way of a tick.
+float most_depth_m(const Edge& last, Vec3 normal, Vec3 at_m) {
+  const Vec3 way_m = at_m - last.at_m;
+  const float half_m = 0.5f * math::dot(normal, way_m);
+  const float left2_m2 =
+      half_m * half_m + last.depth_m * (last.depth_m - math::dot(last.normal, way_m));
+  return math::square_root(positive(left2_m2)) - half_m;
+}
+
+// The edge of a ruler: a plane through the closest point, free on one side. It is set back where it
+// would give the hand energy, until the tool leaves it. Result: how deep the tool is in it.
+float add_edge(const Guide& guide, Vec3 tangent, const servo::GuideLine& line, Edge& last,
+               servo::LocalModel& model) {
   const Vec3 normal = guide.free_side - tangent * math::dot(guide.free_side, tangent);
   const float size = math::length(normal);
-  if (!(size > kMinSide)) return;  // the curve is along the free side
+  if (!(size > kMinSide)) return 0.0f;  // the curve is along the free side
   servo::ContactPlane edge;
   edge.normal = normal * (1.0f / size);
   edge.offset_m = math::dot(edge.normal, line.point_m) - line.tunnel_m;
+  const float height_m = math::dot(edge.normal, model.made_at_m);
+  const float most_m = height_m + most_depth_m(last, edge.normal, model.made_at_m);
+  if (edge.offset_m > most_m) edge.offset_m = most_m;
+  last.normal = edge.normal;
   edge.stiffness_N_per_m = guide.material.stiffness_N_per_m;
   edge.damping_N_s_per_m = guide.material.damping_N_s_per_m;
   (void)add_plane(model, edge);  // no effect on a model full of contacts
+  return positive(edge.offset_m - height_m);
 }
 
 void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, GuideTouch& touch,
@@ -131,19 +146,22 @@ void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, G
   servo::GuideLine line;
   line.point_m = math::apply(guide.pose, touch.closest.point_m);
   line.direction = guide.pose.rotation * unguided.direction;
-  const float tunnel_m = positive(guide.tunnel_m);
-  line.tunnel_m = tunnel_m < servo::kMaxTunnel_m ? tunnel_m : servo::kMaxTunnel_m;
+  line.tunnel_m = math::smaller(positive(guide.tunnel_m), servo::kMaxTunnel_m);
   set_drive(guide, found, moved_m, unguided.is_along, touch, line);
+  float depth_m = 0;
   const float side2 = math::dot(guide.free_side, guide.free_side);
   if (side2 >= kMinSide * kMinSide && side2 <= 1e6f) {
     // At a corner the edge is turned with the line; past an end it goes straight on.
-    add_edge(guide, found.end == 0 ? line.direction : guide.pose.rotation * touch.closest.tangent,
-             line, model);
+    const Vec3 tangent =
+        found.end == 0 ? line.direction : guide.pose.rotation * touch.closest.tangent;
+    depth_m = add_edge(guide, tangent, line, touch.edge, model);
     line.tunnel_m = 0;
   } else {
     line.stiffness_N_per_m = guide.material.stiffness_N_per_m;
     line.damping_N_s_per_m = guide.material.damping_N_s_per_m;
   }
+  touch.edge.at_m = model.made_at_m;
+  touch.edge.depth_m = depth_m;
   (void)add_guide(model, line);  // no effect on a model that has a guide
 }
 
@@ -162,6 +180,7 @@ int finish_guide(const Guide& guide, Vec3 p_m, const Found& found, GuideTouch& t
   touch.is_held = holds(guide, found, touch);
   const bool is_new = !was_held || found.is_new;
   if (is_new || !touch.is_held) touch.progress_m = touch.ahead_m = 0;
+  if (!was_held) touch.edge.depth_m = kMaxReach_m;  // after which it may be anywhere
   if (!touch.is_held) return 0;
   const float moved_m = is_new ? 0.0f : found.moved_m;
   touch.progress_m += moved_m;
