@@ -5,6 +5,7 @@
 #include <random>
 
 #include "curve/hard_curves.hpp"
+#include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/curve_guide.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/long.hpp"
