@@ -215,7 +215,7 @@ template <class Finder, class Bound>
   return found;
 }
 template <class Finder, class Bound>
-constexpr auto* refined =
+constexpr auto* kRefined =
     Finder::kIsForSpeed ? refined_fast<Finder, Bound> : refined_small<Finder, Bound>;
 
 // The sign of the offset, or 0 if the roundings of offset, `loss_m`, and pseudonormal could change
@@ -289,8 +289,8 @@ template <class Finder, class Bound>
   bool exact = false;
   if (is_near) {
     if (!Bound::kCompensated && !(2.0f * loss_m <= promise_m))
-      found = refined<Finder, Bound>(mesh, finder, bound, parts_of(budget.work), budget.threshold_m,
-                                     promise_m, loss_m, search, found);
+      found = kRefined<Finder, Bound>(mesh, finder, bound, parts_of(budget.work),
+                                      budget.threshold_m, promise_m, loss_m, search, found);
     exact = found.complete;
   }
 
