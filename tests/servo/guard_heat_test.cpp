@@ -25,7 +25,8 @@ struct Motors {
 
   explicit Motors(float continuous_Nm = kContinuous_Nm, float time_s = kTime_s,
                   float tick_s = kTick_s)
-      : fall(decay(double{tick_s} / double{time_s})), continuous_Nm_(continuous_Nm) {
+      : fall(decay(static_cast<double>(tick_s) / static_cast<double>(time_s))),
+        continuous_Nm_(continuous_Nm) {
     CHECK(servo::guard_set_limits(state, {8, 5000, tick_s}));
     servo::set_heat(heat, {continuous_Nm, continuous_Nm / 2, 0}, {time_s, time_s * 2, 0});
   }
@@ -83,9 +84,10 @@ TEST(GuardOfHeat_EachMotorHasItsOwn) {
   while (ticks < 100000 && motors.pass(1, -2 * kContinuous_Nm)) ++ticks;
   double x = 1;  // of four times its continuous torque
   for (uint32_t tick = 0; tick < ticks; ++tick)
-    x = 16 + (x - 16) * decay(double{kTick_s} / double{2 * kTime_s});
+    x = 16 + (x - 16) * decay(static_cast<double>(kTick_s) / static_cast<double>(2 * kTime_s));
   CHECK_LE(x, kMaxHeat * 1.002);
-  CHECK_LE(kMaxHeat * 0.998, x + 16 * double{kTick_s} / double{2 * kTime_s});
+  CHECK_LE(kMaxHeat * 0.998,
+           x + 16 * static_cast<double>(kTick_s) / static_cast<double>(2 * kTime_s));
   check_trips(motors);
 }
 
@@ -135,7 +137,7 @@ TEST(GuardOfHeat_LongTicks_HeatNoFasterThanABackwardStep) {
     CHECK_LE(cold, 1e-4);
     CHECK(motors.pass(1));
     const double share = static_cast<double>(motors.heat.value.heat[0]) / hot - cold;
-    const double a = double{tick_s} / 0.125;
+    const double a = static_cast<double>(tick_s) / 0.125;
     CHECK_LE(share, a / (1 + a));
     if (tick_s < 0.03f) CHECK_LE(a * (1 - a) * 0.998, share);
   }
