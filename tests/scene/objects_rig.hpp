@@ -3,33 +3,15 @@
 // frame of each object.
 #include <cstdint>
 #include <deque>
-#include <random>
 #include <vector>
 
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/scene/objects.hpp"
 #include "firmtouch/servo/evaluate.hpp"
+#include "scene/draw.hpp"
 #include "scene/proxy_rig.hpp"
 
 namespace firmtouch::scene_test {
-
-// A number from a seed: the same everywhere.
-class Draw {
- public:
-  explicit Draw(uint32_t seed) : random_(seed) {}
-  float between(double low, double high) {
-    return static_cast<float>(low +
-                              (high - low) * static_cast<double>(random_() >> 5) / 134217728.0);
-  }
-  Vec3 within(double most) {
-    const float x = between(-most, most), y = between(-most, most);
-    return {x, y, between(-most, most)};
-  }
-  uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_()) % n; }
-
- private:
-  std::mt19937 random_;
-};
 
 struct BrokenAmongObjects {
   uint32_t ticks = 0, free = 0, crossings = 0, unclear = 0, longer = 0, over_budget = 0,

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>
-#include <random>
 
 #include "curve/hard_curves.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
@@ -10,12 +9,14 @@
 #include "firmtouch/servo/evaluate.hpp"
 #include "harness/long.hpp"
 #include "harness/test.hpp"
+#include "scene/draw.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 using curve_test::Baked;
 using curve_test::point;
 using curve_test::Points;
 using math::Vec3;
+using scene_test::Draw;
 
 namespace {
 
@@ -25,19 +26,6 @@ double product(Vec3 a, Vec3 b) {
   return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z};
 }
 
-class RulerDraw {
- public:
-  explicit RulerDraw(uint32_t seed) : random_(seed) {}
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
-  Vec3 within(double m) { return point(between(-m, m), between(-m, m), between(-m, m)); }
-
- private:
-  std::mt19937 random_;
-};
-
 Points wave(int count, double height_m, double length_m) {
   Points points;
   for (int i = 0; i < count; ++i)
@@ -46,10 +34,11 @@ Points wave(int count, double height_m, double length_m) {
 }
 
 // Knots, coils, an eight, stairs, waves.
-Points any_curve(RulerDraw& draw) {
+Points any_curve(Draw& draw) {
   const uint32_t kind = draw.below(5);
   const int count = 4 + static_cast<int>(draw.below(120));
-  if (kind == 4) return wave(count, draw.between(0.001, 0.01), draw.between(0.01, 0.05));
+  if (kind == 4)
+    return wave(count, double{draw.between(0.001, 0.01)}, double{draw.between(0.01, 0.05)});
   Points points;
   for (int i = 0; i < count; ++i) {
     const double turn = 2 * M_PI * i / count;
@@ -61,8 +50,8 @@ Points any_curve(RulerDraw& draw) {
       points.push_back(
           point(0.05 * std::cos(turn), 0.05 * std::sin(2 * turn), 0.002 * std::sin(turn)));
     else
-      points.push_back(
-          point(0.002 * i, 0.004 * (i / 3 % 2) + draw.between(0, 2e-4), 0.004 * (i / 5 % 2)));
+      points.push_back(point(0.002 * i, 0.004 * (i / 3 % 2) + double{draw.between(0, 2e-4)},
+                             0.004 * (i / 5 % 2)));
   }
   return points;
 }
@@ -87,37 +76,25 @@ struct Ruler {
 };
 
 // A hand that goes from place to place about the curve in steps of one length.
-class Hand {
- public:
-  Hand(const Points& curve, RulerDraw& draw)
-      : curve_(curve),
-        draw_(draw),
-        at_m(curve[draw.below(static_cast<uint32_t>(curve.size()))]),
-        to_m_(at_m),
-        step_m_(std::pow(10, draw.between(-5, -3.7))) {}
+struct Hand {
+  const Points& curve;
+  Draw& draw;
+  double step_m = std::pow(10, double{draw.between(-5, -3.7)});
+  Vec3 at_m = any_sample();
+  Vec3 to_m = at_m;
+
+  Vec3 any_sample() { return curve[draw.below(static_cast<uint32_t>(curve.size()))]; }
   void move() {
-    const Vec3 way = to_m_ - at_m;
+    const Vec3 way = to_m - at_m;
     const double size_m = std::sqrt(product(way, way));
-    if (size_m > step_m_) {
-      at_m = at_m + way * static_cast<float>(step_m_ / size_m);
+    if (size_m > step_m) {
+      at_m = at_m + way * static_cast<float>(step_m / size_m);
       return;
     }
-    at_m = to_m_;
-    const Vec3 about =
-        draw_.below(2) == 0 ? at_m : curve_[draw_.below(static_cast<uint32_t>(curve_.size()))];
-    to_m_ = about + draw_.within(draw_.below(4) == 0 ? 0.03 : 0.012);
+    at_m = to_m;
+    const Vec3 about_m = draw.below(2) == 0 ? at_m : any_sample();
+    to_m = about_m + draw.within(draw.below(4) == 0 ? 0.03 : 0.012);
   }
-
- private:
-  const Points& curve_;
-  RulerDraw& draw_;
-
- public:
-  Vec3 at_m;
-
- private:
-  Vec3 to_m_;
-  double step_m_;
 };
 
 }  // namespace
@@ -128,7 +105,7 @@ TEST(Ruler_AnyCurveAndHand_GivesNoEnergy) {
   double most_J = 0;
   uint32_t pressed = 0;
   for (uint32_t seed = 0; seed < rulers; ++seed) {
-    RulerDraw draw(seed);
+    Draw draw(seed);
     const Points points = any_curve(draw);
     const Baked baked(points, seed % 2 != 0);
     if (!baked.report.problem.empty()) continue;
@@ -136,25 +113,28 @@ TEST(Ruler_AnyCurveAndHand_GivesNoEnergy) {
     Ruler ruler(baked.view, sides[draw.below(3)]);
     const float penalties[] = {0, 0.02f, 0.1f, 0.5f, 2};
     ruler.guide.arc_penalty = penalties[draw.below(5)];
-    if (draw.below(3) == 0) ruler.guide.tunnel_m = static_cast<float>(draw.between(0, 0.002));
+    if (draw.below(3) == 0) ruler.guide.tunnel_m = draw.between(0, 0.002);
     ruler.guide.ends = static_cast<scene::Ends>(draw.below(3));
-    Hand hand(points, draw);
-    Vec3 last_m = hand.at_m, last_N;
+    if (draw.below(2) == 0)
+      ruler.guide.pose = {{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}}, draw.within(0.05)};
+    Hand hand{points, draw};
+    Vec3 last_m, last_N;
     bool was_held = false;
     double stored_J = 0, given_J = 0;
     for (uint32_t tick = 0; tick < 10000; ++tick) {
       hand.move();
-      const Vec3 force_N = ruler.force_N(hand.at_m, tick);
+      const Vec3 at_m = math::apply(ruler.guide.pose, hand.at_m);
+      const Vec3 force_N = ruler.force_N(at_m, tick);
       const double now_J = product(force_N, force_N) / (2 * kStiffness_N_per_m);
       if (was_held && ruler.touch.is_held)
-        given_J += 0.5 * product(force_N + last_N, hand.at_m - last_m) + now_J - stored_J;
+        given_J += 0.5 * product(force_N + last_N, at_m - last_m) + now_J - stored_J;
       else
         given_J = 0;
       given_J = std::fmax(given_J, 0);  // what was lost before is not given back
       most_J = std::fmax(most_J, given_J);
       pressed += now_J > 0;
       was_held = ruler.touch.is_held;
-      stored_J = now_J, last_N = force_N, last_m = hand.at_m;
+      stored_J = now_J, last_N = force_N, last_m = at_m;
     }
   }
   test::note("most given, nJ", static_cast<int64_t>(most_J * 1e9));
@@ -185,9 +165,9 @@ TEST(Ruler_Straight_IsAsDeepAsTheHand) {
   const Points points = {point(0, 0, 0), point(0.1, 0, 0)};
   const Baked baked(points);
   Ruler ruler(baked.view, {0, 1, 0});
-  RulerDraw draw(1);
+  Draw draw(1);
   for (uint32_t tick = 0; tick < 1000; ++tick) {
-    const Vec3 p_m = point(draw.between(0.02, 0.08), draw.between(-0.01, 0.005), 0);
+    const Vec3 p_m{draw.between(0.02, 0.08), draw.between(-0.01, 0.005), 0};
     const Vec3 force_N = ruler.force_N(p_m, tick);
     const double depth_m = std::fmax(-double{p_m.y}, 0);
     CHECK_LE(std::fabs(double{force_N.y} / kStiffness_N_per_m - depth_m), 1e-6);

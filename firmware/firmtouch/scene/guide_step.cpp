@@ -121,7 +121,8 @@ float most_depth_m(const Edge& last, Vec3 normal, Vec3 at_m) {
 }
 
 // The edge of a ruler: a plane through the closest point, free on one side. It is set back where it
-// would give the hand energy, until the tool leaves it. Result: how deep the tool is in it.
+// would give the hand energy, until the tool leaves it. `last`: its normal is renewed, the rest by
+// the caller. Result: how deep the tool is in it.
 float add_edge(const Guide& guide, Vec3 tangent, const servo::GuideLine& line, Edge& last,
                servo::LocalModel& model) {
   const Vec3 normal = guide.free_side - tangent * math::dot(guide.free_side, tangent);
