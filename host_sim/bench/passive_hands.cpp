@@ -14,6 +14,9 @@ namespace {
 // Of random hands; a linkage that is pushed out of its ranges faults, and renders nothing any more.
 constexpr double kReachOfLinkage_m = 0.012;
 
+// A spring of 100 N/m or more, the softest here, then holds 12 uJ at most.
+constexpr double kSlack_N = 0.05;
+
 double in_range(double share, double low, double high) { return low * std::pow(high / low, share); }
 
 void add_hand(double stiffness_share, double damping_share, Lines& to) {
@@ -21,28 +24,25 @@ void add_hand(double stiffness_share, double damping_share, Lines& to) {
   to.emplace_back("hand_damping", with_unit(in_range(damping_share, 0.01, 20), "N*s/m"));
 }
 
-// A hand that goes from place to place about a solid, in and out of it.
-std::vector<std::string> random_script(tools::Random& random, double reach_m,
-                                       double stiffest_N_per_m, int moves) {
+// A setting that changes at random.
+struct Drawn {
+  const char* key;
+  double low, high;
+  const char* unit;
+};
+
+// A hand that goes from place to place within `reach_m` and these heights, while settings change.
+std::vector<std::string> random_script(tools::Random& random, double reach_m, double low_m,
+                                       double high_m, int moves, const std::vector<Drawn>& drawn) {
   std::vector<std::string> script = {Rig::hold_s(0.3)};
   for (int i = 0; i < moves; ++i) {
     const auto draw = [&] { return random.between(-reach_m, reach_m); };
-    const double x = draw(), y = draw(), z = random.between(-0.01, 0.012);
+    const double x = draw(), y = draw(), z = random.between(low_m, high_m);
     script.push_back(Rig::to({x, y, z}, 0.02 * std::pow(25, random.uniform())));
     script.push_back(Rig::hold_s(random.between(0.05, 0.4)));
   }
-  struct Drawn {
-    const char* key;
-    double low, high;
-    const char* unit;
-  };
-  const Drawn drawn[] = {{"contact_stiffness", 100, stiffest_N_per_m, "N/m"},
-                         {"contact_damping", 0, 2, "N*s/m"},
-                         {"tool_radius", 0.0005, 0.006, "m"},
-                         {"friction_static", 0, 1, ""},
-                         {"friction_dynamic", 0, 1, ""}};
   for (int i = 0; i < 2 * moves; ++i) {
-    const Drawn& row = drawn[random.below(5)];
+    const Drawn& row = drawn[random.below(static_cast<uint32_t>(drawn.size()))];
     const double value = random.between(row.low, row.high), at_s = 0.4 + 0.2 * i;
     script.push_back("at " + with_unit(at_s, "s") + " set " + row.key + " " +
                      with_unit(value, row.unit));
@@ -80,21 +80,25 @@ double add(const RigRun& run, HandsGain& to) {
   to.hands += 1;
   to.faulted += run.back().faults != 0;
   to.overdrawn += (run.back().faults & servo::kFaultEnergy) != 0;
-  to.touched += std::any_of(run.begin(), run.end(),
-                            [](const RigTick& tick) { return tick.is_on && tick.depth_m > 0; });
+  to.touched += std::any_of(run.begin(), run.end(), [](const RigTick& tick) {
+    return tick.is_on && (tick.depth_m > 0 || tick.is_guided);
+  });
   return gain_J(run);
 }
 
 }  // namespace
 
 double gain_J(const RigRun& run) {
-  const auto begin = std::find_if(run.begin(), run.end(), [](const RigTick& tick) {
-    return tick.is_ramped_in && !(tick.depth_m > 0);
+  const auto holds_energy = [](const RigTick& tick) {
+    return tick.depth_m > 0 || (tick.is_guided && norm(tick.force_N) > kSlack_N);
+  };
+  const auto begin = std::find_if(run.begin(), run.end(), [&](const RigTick& tick) {
+    return tick.is_ramped_in && !holds_energy(tick);
   });
   if (begin == run.end()) return 0;
   double most_J = begin->taken_J, gain_J = 0;
   for (auto tick = begin; tick != run.end() && tick->is_ramped_in; ++tick) {
-    if (tick->depth_m > 0) continue;
+    if (holds_energy(*tick)) continue;
     most_J = std::max(most_J, tick->taken_J);
     gain_J = std::max(gain_J, most_J - tick->taken_J);
   }
@@ -108,7 +112,12 @@ RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t 
   const Solid solids[] = {plate(0.04), two_walls(), three_walls(), groove(rig.half_angle_rad)};
   const double reach_m = machine.empty() ? 0.02 : kReachOfLinkage_m;
   const Vec start_m{seed % 4 == 1 ? -reach_m : reach_m, seed % 4 == 2 ? reach_m : 0, 1.5 * reach_m};
-  const auto script = random_script(random, reach_m, stiffest_N_per_m, 20);
+  const auto script = random_script(random, reach_m, -0.01, 0.012, 20,
+                                    {{"contact_stiffness", 100, stiffest_N_per_m, "N/m"},
+                                     {"contact_damping", 0, 2, "N*s/m"},
+                                     {"tool_radius", 0.0005, 0.006, "m"},
+                                     {"friction_static", 0, 1, ""},
+                                     {"friction_dynamic", 0, 1, ""}});
   const bool has_mass = std::any_of(settings.begin(), settings.end(),
                                     [](const auto& line) { return line.first == "hand_mass"; });
   if (!machine.empty() && !has_mass) add_hand(random.uniform(), random.uniform(), settings);
@@ -120,6 +129,39 @@ HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint
   HandsGain all;
   for (uint64_t seed = 1; seed <= hands; ++seed) {
     const double gain_J = add(random_run(machine, stiffest_N_per_m, seed, settings), all);
+    if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
+  }
+  return all;
+}
+
+RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
+                         Lines settings) {
+  const Rig rig(seed, machine);
+  tools::Random random(seed);
+  const double reach_m = machine.empty() ? 0.02 : kReachOfLinkage_m;
+  const auto draw = [&] { return random.between(-reach_m, reach_m); };
+  std::vector<Vec> points_m;
+  for (uint32_t i = 0; i < 3 + seed % 20; ++i) {
+    const double x = draw(), y = draw();
+    points_m.push_back({x, y, 0.6 * draw()});
+  }
+  const Vec start_m = points_m[0];
+  const auto script = random_script(random, reach_m, -0.6 * reach_m, 0.6 * reach_m, 20,
+                                    {{"guide_stiffness", 100, stiffest_N_per_m, "N/m"},
+                                     {"guide_damping", 0, 2, "N*s/m"},
+                                     {"guide_tunnel", 0, 0.002, "m"},
+                                     {"guide_side_z", -1, 1, ""},
+                                     {"guide_arc_penalty", 0, 0.5, ""}});
+  if (!machine.empty()) add_hand(random.uniform(), random.uniform(), settings);
+  for (const char* key : {"guide_snap", "guide_release"}) settings.emplace_back(key, "0.5 m");
+  return rig.run_guided(points_m, start_m, script, settings);
+}
+
+HandsGain guided_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                       const Lines& settings) {
+  HandsGain all;
+  for (uint64_t seed = 1; seed <= hands; ++seed) {
+    const double gain_J = add(random_guided_run(machine, stiffest_N_per_m, seed, settings), all);
     if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
   }
   return all;

@@ -15,8 +15,9 @@ struct HandsGain {
   std::string worst;                    // which hand that was
 };
 
-/// The largest gain of a run between ticks without contact, in which no spring holds energy, while
-/// the force is ramped in: what a force gives that a fault ramps out is not counted.
+/// The largest gain of a run between ticks without contact, and without the pull of a guide, in
+/// which no spring holds energy, while the force is ramped in: what a force gives that a fault
+/// ramps out is not counted.
 double gain_J(const RigRun& run);
 
 /// A hand that goes at random about a solid, in and out of it, while stiffness, damping, radius and
@@ -26,6 +27,13 @@ RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t 
                   Lines settings);
 /// The runs of seeds from 1.
 HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                       const Lines& settings);
+
+/// The same of hands that go about a guide of random corners, which holds them all the time, while
+/// its settings change.
+RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
+                         Lines settings);
+HandsGain guided_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
                        const Lines& settings);
 
 /// The same of hands with a mass (hand/hands.hpp) in turn, each grip of each.

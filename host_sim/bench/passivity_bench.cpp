@@ -82,6 +82,13 @@ void run_passivity_bench(const bench::Options& options, bench::Report& report) {
           "to " + bench::number_text(stiffest_N_per_m) + " N/m",
           random_hands("", stiffest_N_per_m, options.is_long ? 800 : 40, reservoir(is_limited)),
           is_limited, report);
+    for (const char* const rate : {"1000 Hz", "200 Hz", "50 Hz"}) {
+      Lines lines = reservoir(is_limited);
+      if (std::string(rate) != "1000 Hz") lines.emplace_back("geometry_rate", rate);
+      add("random hands about a guide, settings change: energy given",
+          std::string("models at ") + rate,
+          guided_hands("", 5000, options.is_long ? 800 : 40, lines), is_limited, report);
+    }
     add("worst hand found by hill climbing: energy given", "to 20000 N/m",
         worst_hand("", 20000, options.is_long ? 40 : 8, 25, reservoir(is_limited)), is_limited,
         report);

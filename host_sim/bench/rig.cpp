@@ -126,6 +126,13 @@ RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>&
   return run(session.tick(), start_m, script, settings);
 }
 
+RigRun Rig::run_guided(const std::vector<Vec>& points_m, Vec start_m,
+                       const std::vector<std::string>& script, const Lines& settings) const {
+  const std::string bytes = guide_of(points_m, rotation_, linkage_ ? &*linkage_ : nullptr);
+  const Session session(folder_.write("solid.fta", bytes));
+  return run(session.tick(), start_m, script, settings);
+}
+
 Vec Rig::origin_m(Vec start_m) const { return linkage_ ? tip_m_ - rotation_.turn(start_m) : Vec{}; }
 
 Scenario Rig::scenario(Vec start_m, const std::vector<std::string>& script,
@@ -159,7 +166,7 @@ RigRun Rig::run(const Tick& controller, Vec start_m, const std::vector<std::stri
                    place_of(wide(out.position_m)), place_of(wide(out.proxy_m)),
                    place_of(tick.target_m), static_cast<double>(out.penetration_m),
                    tick.hand_J - stored.next_J(tick, simulation.energy(), is_ramped_in), out.faults,
-                   motors_are_on(out), is_ramped_in});
+                   motors_are_on(out), is_ramped_in, (out.state & record::kStateOnGuide) != 0});
   }
   return run;
 }

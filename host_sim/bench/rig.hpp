@@ -18,6 +18,7 @@ struct RigTick {
   double taken_J = 0;  // of the hand, less motion, stops and the weight that no motor carries
   uint32_t faults = 0;
   bool is_on = false, is_ramped_in = false;
+  bool is_guided = false;  // a guide holds the tool
 };
 using RigRun = std::vector<RigTick>;
 
@@ -39,6 +40,9 @@ class Rig {
   /// Positions are in the solid's frame. The run is that of a controller with `contact`.
   RigRun run(const Solid& solid, Vec start_m, const std::vector<std::string>& script,
              Contact contact = Contact::kProxy, const Lines& settings = {}) const;
+  /// The same along a guide through these points, without a solid.
+  RigRun run_guided(const std::vector<Vec>& points_m, Vec start_m,
+                    const std::vector<std::string>& script, const Lines& settings = {}) const;
   /// The same by a controller of the caller's.
   RigRun run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
              const Lines& settings = {}) const;

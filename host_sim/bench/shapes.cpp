@@ -6,6 +6,7 @@
 
 #include "bake/asset/asset_writer.hpp"
 #include "bake/asset/probes.hpp"
+#include "bake/curve/bake_curve.hpp"
 #include "bake/mesh/bake_mesh.hpp"
 #include "host_sim/scenario/scenario.hpp"
 
@@ -42,6 +43,14 @@ Solid extruded(const std::vector<std::pair<double, double>>& profile,
     solid.faces.push_back({j, n + i, n + j});
   }
   return solid;
+}
+
+std::string bytes_of(std::vector<tools::Section> sections, const tools::LinkageDevice* linkage) {
+  if (linkage != nullptr)
+    sections.push_back(
+        tools::make_section(device::kLinkageSection, "linkage", tools::stored_bytes_of(*linkage)));
+  const std::vector<uint8_t> bytes = tools::write_asset(std::move(sections)).bytes;
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -148,11 +157,20 @@ std::string asset_of(const Solid& solid, const Rotation& rotation,
   if (!tools::open_baked(sections, "solid", mesh).ok())
     throw Refused("a shape of the bench: " + report.problem);
   sections.push_back(tools::mesh_probes(mesh, "solid"));
-  if (linkage != nullptr)
-    sections.push_back(
-        tools::make_section(device::kLinkageSection, "linkage", tools::stored_bytes_of(*linkage)));
-  const std::vector<uint8_t> bytes = tools::write_asset(std::move(sections)).bytes;
-  return {bytes.begin(), bytes.end()};
+  return bytes_of(std::move(sections), linkage);
+}
+
+std::string guide_of(const std::vector<Vec>& points_m, const Rotation& rotation,
+                     const tools::LinkageDevice* linkage) {
+  tools::CurvePoints points;
+  for (const Vec& at_m : points_m) points.samples_m.push_back(tools::to_vec3(rotation.turn(at_m)));
+  tools::CurveReport report;
+  std::vector<tools::Section> sections = tools::bake_curve(points, "guide", report);
+  curve::View curve;
+  if (!tools::open_baked(sections, "guide", curve).ok())
+    throw Refused("a guide of the bench: " + report.problem);
+  sections.push_back(tools::curve_probes(curve, "guide"));
+  return bytes_of(std::move(sections), linkage);
 }
 
 }  // namespace firmtouch::host_sim

@@ -47,4 +47,8 @@ tools::Surface surface_of(const Solid& solid, const Rotation& rotation);
 std::string asset_of(const Solid& solid, const Rotation& rotation,
                      const tools::LinkageDevice* linkage = nullptr);
 
+/// The same of a guide through these points.
+std::string guide_of(const std::vector<Vec>& points_m, const Rotation& rotation,
+                     const tools::LinkageDevice* linkage = nullptr);
+
 }  // namespace firmtouch::host_sim

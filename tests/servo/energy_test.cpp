@@ -212,7 +212,7 @@ TEST(Energy_StretchThatGrowsWhileTheHandGivesWay_GivesNoMoreThanTheReservoir) {
     const float payable_m = servo::payable_stretch_m(energy, {kReservoir_J, 0.0f},
                                                      kStiffness_N_per_m, stretch_m, {0, 0, at_m});
     force_N = kStiffness_N_per_m * payable_m;
-    energy.contact_N = {0, 0, force_N};
+    energy.force_N = {0, 0, force_N};
     CHECK_EQ(energy.overdrawn_ticks, 0u);
   }
   CHECK_LE(given_J, static_cast<double>(kReservoir_J) + 0.0002);
@@ -224,7 +224,7 @@ TEST(Energy_EverySpecial_LeavesAStretchThatIsFiniteAndFillsNothing) {
       servo::Energy energy;
       (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m,
                                      math::float_of(a), {math::float_of(b), 0, 0});
-      energy.contact_N = {math::float_of(b), 0, math::float_of(a)};
+      energy.force_N = {math::float_of(b), 0, math::float_of(a)};
       (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m, 0.001f,
                                      {});
       const float stretch_m =

@@ -103,8 +103,8 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
     }
   });
   CHECK_EQ(broken, 0u);
-  CHECK_EQ(fields, 47u);
-  CHECK_GE(faulted, 47u * 4u);
+  CHECK_EQ(fields, 50u);
+  CHECK_GE(faulted, 50u * 4u);
 }
 
 TEST(NaN_IsAFaultInItsTick_InEveryField) {

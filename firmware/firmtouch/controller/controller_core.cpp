@@ -65,6 +65,15 @@ void put(float (&to)[record::kAxes], math::Vec3 from) {
   to[2] = from.z;
 }
 
+// noinline: in flash once.
+[[gnu::noinline]] void correct(servo::Energy& energy, const Rendered& last) {
+  energy.force_N = energy.force_N * last.share;
+  float available_J = energy.available_J - math::dot(energy.force_N, last.off_m);
+  if (energy.stretch_m > 0.0f || energy.is_unpaid)  // in contact, or left unpaid
+    available_J -= servo::kHiddenWork_per_J * last.hidden_J2;
+  energy.available_J = available_J;
+}
+
 }  // namespace
 
 void ControllerCore::reset() {
@@ -174,12 +183,11 @@ uint32_t ControllerCore::model_flags() const {
 }
 
 void ControllerCore::count_rendered(const Rendered& last) {
-  servo::Energy& energy = live_.servo.energy;
-  energy.contact_N = energy.contact_N * last.share;
-  float available_J = energy.available_J - math::dot(energy.contact_N, last.off_m);
-  if (energy.stretch_m > 0.0f || energy.is_unpaid)  // in contact, or left unpaid
-    available_J -= servo::kHiddenWork_per_J * last.hidden_J2;
-  energy.available_J = available_J;
+  const bool as_counted = !(last.share < 1.0f) && !(last.hidden_J2 > 0.0f) &&
+                          !(math::dot(last.off_m, last.off_m) > 0.0f);
+  if (as_counted) return;
+  correct(live_.servo.energy, last);
+  correct(live_.servo.guide_energy, last);
 }
 
 Push ControllerCore::step(const Tick& tick, uint32_t flags, record::TickOutput& output) {

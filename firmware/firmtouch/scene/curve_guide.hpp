@@ -18,9 +18,9 @@ struct CurveGuideTouch : GuideTouch {
 /// Bounds: one query of `budget`, and about 570 instructions; re-entrant for different touches.
 /// Result: a sound model if the material is sound. NaN in the guide's settings counts as 0. Without
 ///         a drive no force does work on a tool that returns to where it was, except the snap,
-///         which gives stiffness snap^2 / 2. The edge of a free side that turns, or is another
-///         stretch's, is set back until the tool leaves it, so that it gives none. A drive gives at
-///         most its force times the length.
+///         which gives stiffness snap^2 / 2. From tick to tick the line is another one: what that
+///         gives, servo limits (servo/energy.hpp). A drive gives at most its force times the
+///         length.
 void follow_curve(const CurveGuide& guide, math::Vec3 position_m, query::Budget budget,
                   CurveGuideTouch& touch, servo::LocalModel& model);
 

@@ -50,19 +50,12 @@ struct Guide {
   Drive drive;
 };
 
-/// The plane of a one-sided guide in the last tick, device frame.
-struct Edge {
-  math::Vec3 normal, at_m;  // unit, to the free side; where the tool was
-  float depth_m = 0;        // of the tool in it, as the spring has it
-};
-
 /// State of a (tool, guide) pair from tick to tick, and the result of its last query. The caller
 /// owns one a pair.
 struct GuideTouch {
   curve::Closest closest;  // curve frame; distance_m is the deviation; of a spline, segment = piece
   float progress_m = 0;    // along the curve since the guide holds, rounds of a closed one included
   float ahead_m = 0;       // of the drive's carriage, from the closest point
-  Edge edge;
   bool is_held = false;
   bool is_off_end = false;  // released at an end
 };

@@ -110,35 +110,11 @@ void set_drive(const Guide& guide, const Found& found, float moved_m, bool is_al
   line.drive_limit_N = limit_N;
 }
 
-// How deep a tool may be in an edge that has turned, or is another stretch's, for the spring to
-// store no more than it did and the hand has put in since: (F + F') / 2 times the way of a tick.
-float most_depth_m(const Edge& last, Vec3 normal, Vec3 at_m) {
-  const Vec3 way_m = at_m - last.at_m;
-  const float half_m = 0.5f * math::dot(normal, way_m);
-  const float left2_m2 =
-      half_m * half_m + last.depth_m * (last.depth_m - math::dot(last.normal, way_m));
-  return math::square_root(positive(left2_m2)) - half_m;
-}
-
-// The edge of a ruler: a plane through the closest point, free on one side. It is set back where it
-// would give the hand energy, until the tool leaves it. `last`: its normal is renewed, the rest by
-// the caller. Result: how deep the tool is in it.
-float add_edge(const Guide& guide, Vec3 tangent, const servo::GuideLine& line, Edge& last,
-               servo::LocalModel& model) {
-  const Vec3 normal = guide.free_side - tangent * math::dot(guide.free_side, tangent);
+// The edge of a ruler: free on one side. None where the curve is along the free side.
+Vec3 edge_of(Vec3 free_side, Vec3 tangent) {
+  const Vec3 normal = free_side - tangent * math::dot(free_side, tangent);
   const float size = math::length(normal);
-  if (!(size > kMinSide)) return 0.0f;  // the curve is along the free side
-  servo::ContactPlane edge;
-  edge.normal = normal * (1.0f / size);
-  edge.offset_m = math::dot(edge.normal, line.point_m) - line.tunnel_m;
-  const float height_m = math::dot(edge.normal, model.made_at_m);
-  const float most_m = height_m + most_depth_m(last, edge.normal, model.made_at_m);
-  if (edge.offset_m > most_m) edge.offset_m = most_m;
-  last.normal = edge.normal;
-  edge.stiffness_N_per_m = guide.material.stiffness_N_per_m;
-  edge.damping_N_s_per_m = guide.material.damping_N_s_per_m;
-  (void)add_plane(model, edge);  // no effect on a model full of contacts
-  return positive(edge.offset_m - height_m);
+  return size > kMinSide ? normal * (1.0f / size) : Vec3{};
 }
 
 void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, GuideTouch& touch,
@@ -149,20 +125,17 @@ void add_line(const Guide& guide, Vec3 p_m, const Found& found, float moved_m, G
   line.direction = guide.pose.rotation * unguided.direction;
   line.tunnel_m = math::smaller(positive(guide.tunnel_m), servo::kMaxTunnel_m);
   set_drive(guide, found, moved_m, unguided.is_along, touch, line);
-  float depth_m = 0;
+  line.stiffness_N_per_m = guide.material.stiffness_N_per_m;
+  line.damping_N_s_per_m = guide.material.damping_N_s_per_m;
   const float side2 = math::dot(guide.free_side, guide.free_side);
   if (side2 >= kMinSide * kMinSide && side2 <= 1e6f) {
     // At a corner the edge is turned with the line; past an end it goes straight on.
     const Vec3 tangent =
         found.end == 0 ? line.direction : guide.pose.rotation * touch.closest.tangent;
-    depth_m = add_edge(guide, tangent, line, touch.edge, model);
-    line.tunnel_m = 0;
-  } else {
-    line.stiffness_N_per_m = guide.material.stiffness_N_per_m;
-    line.damping_N_s_per_m = guide.material.damping_N_s_per_m;
+    line.edge = edge_of(guide.free_side, tangent);
+    if (!(math::dot(line.edge, line.edge) > 0.0f))
+      line.stiffness_N_per_m = line.damping_N_s_per_m = 0;
   }
-  touch.edge.at_m = model.made_at_m;
-  touch.edge.depth_m = depth_m;
   (void)add_guide(model, line);  // no effect on a model that has a guide
 }
 
@@ -181,7 +154,6 @@ int finish_guide(const Guide& guide, Vec3 p_m, const Found& found, GuideTouch& t
   touch.is_held = holds(guide, found, touch);
   const bool is_new = !was_held || found.is_new;
   if (is_new || !touch.is_held) touch.progress_m = touch.ahead_m = 0;
-  if (!was_held) touch.edge.depth_m = kMaxReach_m;  // after which it may be anywhere
   if (!touch.is_held) return 0;
   const float moved_m = is_new ? 0.0f : found.moved_m;
   touch.progress_m += moved_m;

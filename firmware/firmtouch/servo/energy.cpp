@@ -7,7 +7,7 @@ namespace firmtouch::servo {
 float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
                         float stretch_m, math::Vec3 position_m, math::Vec3 carried_m) {
   const math::Vec3 move_m = position_m - energy.position_m - carried_m;
-  const float given_J = math::dot(energy.contact_N - move_m * settings.friction_N_per_m, move_m);
+  const float given_J = math::dot(energy.force_N - move_m * settings.friction_N_per_m, move_m);
   const float stored_J = 0.5f * stiffness_N_per_m * stretch_m * stretch_m;
   float available_J = energy.available_J - given_J;
   const float most_J = stored_J + settings.reservoir_J;

@@ -20,15 +20,15 @@ struct EnergySettings {
   float friction_N_per_m = 0;  // the device's own viscous friction over the tick's period
 };
 
-/// Passivity observer of the proxy spring: the energy that contact may still give to the hand.
-/// What the hand put into the spring, plus a reservoir, less what contact gave back.
+/// Passivity observer of a spring, of the proxy or of a guide: the energy that it may still give to
+/// the hand. What the hand put into the spring, plus a reservoir, less what it gave back.
 struct Energy {
   float available_J = FLT_MAX;   // limited to a full reservoir in the first tick
-  float stretch_m = 0;           // hand to proxy in the last tick
+  float stretch_m = 0;           // of the spring in the last tick
   float entered_m = 0;           // growth of the stretch in the last tick
   float payable_m = 0;           // result of the last tick
   math::Vec3 position_m;         // of the last tick
-  math::Vec3 contact_N;          // applied since then; the caller sets it
+  math::Vec3 force_N;            // applied since then; the caller sets it
   uint16_t overdrawn_ticks = 0;  // without a break, by more than kOverdraft_J
   bool is_unpaid = false;        // another tick of the last force is not paid for
 };
@@ -37,7 +37,7 @@ struct Energy {
 /// The work is exact: between two samples the motors hold the force. The device's friction takes
 /// its part, at least that of an even speed. `carried_m`: what a moving object displaced the proxy
 /// by since the last tick; its work is not the surface's, so only motion relative to it counts.
-/// Energy that contact dissipates fills the reservoir up and is not saved beyond it.
+/// Energy that the spring dissipates fills the reservoir up and is not saved beyond it.
 /// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
 ///         empty. From then on
 ///           no more than holds the available energy;

@@ -15,4 +15,7 @@ bool is_sound(const LocalModel& model);
 /// Result: finite.
 math::Vec3 evaluate(const LocalModel& model, math::Vec3 position_m, math::Vec3 velocity_mps);
 
+/// The part of the planes alone.
+math::Vec3 planes_N(const LocalModel& model, math::Vec3 position_m, math::Vec3 velocity_mps);
+
 }  // namespace firmtouch::servo

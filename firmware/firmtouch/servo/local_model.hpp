@@ -43,6 +43,7 @@ struct ProxySpring {
 struct GuideLine {
   math::Vec3 point_m;
   math::Vec3 direction;  // unit
+  math::Vec3 edge;       // unit: pulls this way alone, and the other side is free; zero: all around
   float stiffness_N_per_m = 0;
   float damping_N_s_per_m = 0;
   float tunnel_m = 0;  // nearer to the line than this there is no force across it

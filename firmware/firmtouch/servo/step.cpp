@@ -3,6 +3,7 @@
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "firmtouch/servo/fault.hpp"
+#include "firmtouch/servo/guide_line.hpp"
 #include "firmtouch/servo/proxy_spring.hpp"
 
 namespace firmtouch::servo {
@@ -34,8 +35,9 @@ float share_within(Vec3 a, float most) {
   return is <= kept ? 1.0f : kept / is;
 }
 
-// Shortens a vector to `most`: in exact arithmetic the result is not longer.
-Vec3 shorten(Vec3 a, float most) {
+// Shortens a vector to `most`: in exact arithmetic the result is not longer. noinline: in flash
+// once.
+[[gnu::noinline]] Vec3 shorten(Vec3 a, float most) {
   return most >= kMinLimit_N ? a * share_within(a, most) : Vec3{};
 }
 
@@ -101,25 +103,55 @@ Vec3 ramped_out(State& state, const Settings& settings) {
 
 // Moves the proxy, and counts the energy of the last tick.
 // Result: the largest stretch of the spring.
-float move_spring(State& state, const Settings& settings, const ProxySpring& spring,
-                  Vec3 position_m) {
+float move_spring(State& state, const EnergySettings& counted, const ProxySpring& spring,
+                  Vec3 position_m, float tick_period_s) {
   state.has_proxy = spring.is_used;
   state.proxy_m = proxy_at(spring, position_m);
-  return payable_stretch_m(state.energy, settings.energy,
-                           spring.is_used ? spring.stiffness_N_per_m : 0.0f,
+  return payable_stretch_m(state.energy, counted, spring.is_used ? spring.stiffness_N_per_m : 0.0f,
                            math::length(state.proxy_m - position_m), position_m,
-                           spring.velocity_mps * settings.tick_period_s);
+                           spring.velocity_mps * tick_period_s);
+}
+
+// Counts the energy of the guide's last tick.
+// Result: the share of its spring that is paid for.
+float paid_share(State& state, const EnergySettings& counted, const LocalModel& model, Vec3 off_m,
+                 Vec3 position_m) {
+  Energy& energy = state.guide_energy;
+  const float last_N_per_m = state.guide_N_per_m;
+  const float stiffness = model.has_guide ? model.guide.stiffness_N_per_m : -1.0f;
+  state.guide_N_per_m = stiffness;
+  float is_m = 0;
+  if (stiffness > 0.0f) {
+    is_m = energy.stretch_m = stretch_m(model.guide, off_m);
+    if (!is_on(state.mode) || last_N_per_m < 0.0f) {  // takes hold
+      energy.available_J += 0.5f * stiffness * is_m * is_m;
+    } else {
+      // Of this model's line.
+      energy.stretch_m = stretch_m(model.guide, guided_off_m(model.guide, energy.position_m));
+      if (stiffness > last_N_per_m) {  // the same force, and less energy
+        energy.payable_m *= last_N_per_m / stiffness;
+        const float stored_J = 0.5f * stiffness * energy.payable_m * energy.payable_m;
+        energy.available_J = math::smaller(energy.available_J, stored_J);
+      }
+    }
+  }
+  const float paid_m = payable_stretch_m(energy, counted, stiffness, is_m, position_m);
+  return paid_m < is_m ? paid_m / is_m : 1.0f;
 }
 
 Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
-              const StepInput& input, float stretch_m) {
+              const StepInput& input, float spring_m, Vec3 off_m, float guide_share) {
   if (state.ticks_on < UINT32_MAX) ++state.ticks_on;
   const float ramp =
       static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
   if (!(ramp < 1.0f)) state.mode = Mode::kOn;
   const float share = state.mode == Mode::kOn ? 1.0f : ramp;
-  const Vec3 other_N = evaluate(model, input.position_m, input.velocity_mps);
-  const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, stretch_m, input.position_m,
+  Vec3 other_N = planes_N(model, input.position_m, input.velocity_mps), guide_N;
+  if (model.has_guide) {
+    guide_N = pull_N(model.guide, off_m, input.velocity_mps, guide_share);
+    other_N = other_N + guide_N + drive_N(model.guide, input.position_m, input.velocity_mps);
+  }
+  const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, spring_m, input.position_m,
                                            input.velocity_mps - model.spring.velocity_mps)) *
                        share;
   const float within = share_within(model_N, settings.force_limit_N);
@@ -128,13 +160,19 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   // here.
   const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
                        settings.force_limit_N * (4.0f * kRound);
-  Vec3 force_N =
-      shorten(state.force_N + shorten(wanted_N - state.force_N, step_N), settings.force_limit_N);
+  const Vec3 change_N = wanted_N - state.force_N;
+  const float moved = step_N >= kMinLimit_N ? share_within(change_N, step_N) : 0.0f;
+  Vec3 force_N = shorten(state.force_N + change_N * moved, settings.force_limit_N);
   // A force that is not paid for must not last: it falls faster than its slew limit.
-  if (state.energy.is_unpaid) force_N = shorten(force_N, math::length(wanted_N));
-  // What the motors lag behind the other forces is not contact's.
-  state.part_N = state.part_N + shorten(other_N * (within * share) - state.part_N, step_N);
-  if (model.spring.is_used) state.energy.contact_N = force_N - state.part_N;
+  if (state.energy.is_unpaid || state.guide_energy.is_unpaid)
+    force_N = shorten(force_N, math::length(wanted_N));
+  // What the motors lag behind is each part's.
+  const float kept = within * share;
+  Vec3& part_N = state.part_N;
+  Vec3& its_N = state.guide_energy.force_N;
+  part_N = part_N + (other_N * kept - part_N) * moved;
+  its_N = its_N + (guide_N * kept - its_N) * moved;
+  if (model.spring.is_used) state.energy.force_N = force_N - state.part_N;
   return force_N;
 }
 
@@ -148,16 +186,25 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   // In the ticks that enable, the motors count as on already: a fault that stands keeps them off.
   const bool counts = is_on(state.mode) || (input.enable && state.mode == Mode::kOff);
   state.uncertain_ticks = model.is_uncertain && counts ? state.uncertain_ticks + 1 : 0;
-  const float stretch_m = move_spring(state, settings, model.spring, input.position_m);
+  // The device's friction pays for one of two springs: for that of contact while it is stretched.
+  const bool guide_has_friction = model.has_guide && !(state.energy.stretch_m > 0.0f);
+  const EnergySettings& all = settings.energy;
+  const EnergySettings rest{all.reservoir_J, 0};
+  const float spring_m = move_spring(state, guide_has_friction ? rest : all, model.spring,
+                                     input.position_m, settings.tick_period_s);
+  const Vec3 off_m = guided_off_m(model.guide, input.position_m);
+  const float guide_share =
+      paid_share(state, guide_has_friction ? all : rest, model, off_m, input.position_m);
   uint32_t faults = seen_faults(state, settings, model, input);
   if (!counts) faults &= ~kOnlyWhileOn;
   state.faults |= faults;
   change_mode(state, settings, input.enable);
 
-  state.energy.contact_N = {};
+  state.energy.force_N = {};
+  if (!is_on(state.mode)) state.guide_energy.force_N = {};
   Vec3 force_N;
   if (is_on(state.mode)) {
-    force_N = rendered(state, settings, model, input, stretch_m);
+    force_N = rendered(state, settings, model, input, spring_m, off_m, guide_share);
   } else if (state.mode == Mode::kRampOut) {
     force_N = ramped_out(state, settings);
   }

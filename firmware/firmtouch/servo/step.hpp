@@ -66,7 +66,9 @@ struct State {
   math::Vec3 proxy_m;
   bool has_proxy = false;
   uint32_t uncertain_ticks = 0;  // of the models while enabled, without a break
-  Energy energy;
+  Energy energy;                 // of the proxy's spring
+  Energy guide_energy;           // of the guide's
+  float guide_N_per_m = -1;      // its stiffness in the last tick; below 0: no guide
 };
 
 /// Force of this tick: the local model evaluated at the fresh position, ramped in, limited in size
