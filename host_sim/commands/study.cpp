@@ -41,10 +41,10 @@ cli::Command study_command() {
   return {{"study", "passivity|failures [FILE|MACHINE ...] [options]", 1, SIZE_MAX, run_study},
           "what linkages do to hands: energy that contact gives, and failures of the machine",
           R"(Without FILE: every machine. Exit code 1 where a bar is not met.
-passivity: hands of 50 to 3,000 N/m go in and out of solids anywhere in the joints'
-ranges, while stiffness, damping, radius and friction change; then as many runs of a
-search for the worst. Counted is the hand's work, less what the linkage gives back. The
-same without the energy's limit shows that the bar can fail.
+passivity: hands of 50 to 3,000 N/m go in and out of solids, and about guides, anywhere
+in the joints' ranges, while stiffness, damping, radius, friction and tunnel change; then
+as many runs of a search for the worst. Counted is the hand's work, less what the linkage
+gives back. The same without the energy's limit shows that the bar can fail.
 failures: encoders that stand, are lost, swapped, reversed or slip, motors that are
 dead, reversed or hot, a broken link, each joint, at every Nth tick of six touches at 1
 kHz; before a homing and at every Nth tick of it. With `home stops` and index pulses they

@@ -216,6 +216,16 @@ TEST(GuideEnergy_FrictionOfTheDevice_CountsWhileNotInContact) {
   }
 }
 
+TEST(GuideEnergy_WithoutAGuide_FrictionFillsTheReservoirOfContact) {
+  Hand hand(along_x(1000));
+  hand.settings.energy.friction_N_per_m = 500;
+  hand.model.has_guide = false;
+  hand.force_y_N(0);
+  hand.state.energy.available_J = 0;
+  for (int i = 0; i < 10; ++i) hand.force_y_N(i % 2 == 0 ? 0.001f : 0);
+  CHECK(is_about(hand.state.energy.available_J, kReservoir_J, 1e-7f));
+}
+
 TEST(GuideEnergy_OfADrive_IsNotCounted) {
   servo::GuideLine line = along_x(1000);
   line.direction = {0, 1, 0};

@@ -98,17 +98,13 @@ Reading read(State& state, const Settings& settings, const Sample& sample) {
       extrapolate(state, dt_s);
     }
   }
-  Reading reading;
-  reading.accepted = accepted;
-  reading.started = state.started;
+  uint32_t faults = 0;
   if (state.bad_in_a_row >= kBadInARow || count_bits(state.bad_history) >= kBadOf32 ||
       !state.started) {
-    reading.faults |= kEncoderFault;
+    faults |= kEncoderFault;
   }
-  if (!clamp_to_workspace(state.position_m, settings)) reading.faults |= kWorkspaceFault;
-  reading.position_m = state.position_m;
-  reading.velocity_mps = state.velocity_mps;
-  return reading;
+  if (!clamp_to_workspace(state.position_m, settings)) faults |= kWorkspaceFault;
+  return {state.position_m, state.velocity_mps, faults, accepted, state.started};
 }
 
 void clear(State& state) {

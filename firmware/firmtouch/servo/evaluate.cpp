@@ -13,11 +13,11 @@ using math::Vec3;
 
 bool is_between(float value, float low, float high) { return value >= low && value <= high; }
 
-[[gnu::noinline]] bool is_unit(Vec3 a) {
+[[gnu::noinline]] bool is_unit(const Vec3& a) {
   return math::is_within(a, 2.0f) && is_between(dot(a, a), 0.98f, 1.02f);
 }
 
-[[gnu::noinline]] bool is_near(Vec3 a) { return math::is_within(a, kMaxPosition_m); }
+[[gnu::noinline]] bool is_near(const Vec3& a) { return math::is_within(a, kMaxPosition_m); }
 
 bool is_material(float stiffness_N_per_m, float damping_N_s_per_m) {
   return is_between(stiffness_N_per_m, 0.0f, kMaxStiffness_N_per_m) &&
