@@ -112,7 +112,7 @@ float move_spring(State& state, const EnergySettings& counted, const ProxySpring
                            spring.velocity_mps * tick_period_s);
 }
 
-// Counts the energy of the guide's last tick.
+// Counts the energy of the guide's last tick. `off_m`: of the tool, as far as the guide acts on it.
 // Result: the share of its spring that is paid for.
 float paid_share(State& state, const EnergySettings& counted, const LocalModel& model, Vec3 off_m,
                  Vec3 position_m) {
@@ -126,7 +126,7 @@ float paid_share(State& state, const EnergySettings& counted, const LocalModel& 
     if (!is_on(state.mode) || last_N_per_m < 0.0f) {  // takes hold
       energy.available_J += 0.5f * stiffness * is_m * is_m;
     } else {
-      // Of this model's line.
+      // The last tick's, from this model's line.
       energy.stretch_m = stretch_m(model.guide, guided_off_m(model.guide, energy.position_m));
       if (stiffness > last_N_per_m) {  // the same force, and less energy
         energy.payable_m *= last_N_per_m / stiffness;
@@ -166,7 +166,7 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   // A force that is not paid for must not last: it falls faster than its slew limit.
   if (state.energy.is_unpaid || state.guide_energy.is_unpaid)
     force_N = shorten(force_N, math::length(wanted_N));
-  // What the motors lag behind is each part's.
+  // The parts lag behind as their sum does, so that they add up to it.
   const float kept = within * share;
   Vec3& part_N = state.part_N;
   Vec3& its_N = state.guide_energy.force_N;
@@ -187,14 +187,13 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   const bool counts = is_on(state.mode) || (input.enable && state.mode == Mode::kOff);
   state.uncertain_ticks = model.is_uncertain && counts ? state.uncertain_ticks + 1 : 0;
   // The device's friction pays for one of two springs: for that of contact while it is stretched.
-  const bool guide_has_friction = model.has_guide && !(state.energy.stretch_m > 0.0f);
-  const EnergySettings& all = settings.energy;
-  const EnergySettings rest{all.reservoir_J, 0};
-  const float spring_m = move_spring(state, guide_has_friction ? rest : all, model.spring,
-                                     input.position_m, settings.tick_period_s);
-  const Vec3 off_m = guided_off_m(model.guide, input.position_m);
-  const float guide_share =
-      paid_share(state, guide_has_friction ? all : rest, model, off_m, input.position_m);
+  EnergySettings of_contact = settings.energy, of_guide = settings.energy;
+  const bool pays_for_guide = model.has_guide && !(state.energy.stretch_m > 0.0f);
+  (pays_for_guide ? of_contact : of_guide).friction_N_per_m = 0;
+  const float spring_m =
+      move_spring(state, of_contact, model.spring, input.position_m, settings.tick_period_s);
+  const Vec3 off_m = model.has_guide ? guided_off_m(model.guide, input.position_m) : Vec3{};
+  const float guide_share = paid_share(state, of_guide, model, off_m, input.position_m);
   uint32_t faults = seen_faults(state, settings, model, input);
   if (!counts) faults &= ~kOnlyWhileOn;
   state.faults |= faults;
