@@ -86,6 +86,17 @@ double add(const RigRun& run, HandsGain& to) {
   return gain_J(run);
 }
 
+// The runs of seeds from 1.
+template <class RunOf>
+HandsGain of_seeds(uint32_t hands, const RunOf& run_of) {
+  HandsGain all;
+  for (uint64_t seed = 1; seed <= hands; ++seed) {
+    const double gain_J = add(run_of(seed), all);
+    if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
+  }
+  return all;
+}
+
 }  // namespace
 
 double gain_J(const RigRun& run) {
@@ -124,16 +135,6 @@ RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t 
   return rig.run(solids[seed % 4], start_m, script, Contact::kProxy, settings);
 }
 
-HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
-                       const Lines& settings) {
-  HandsGain all;
-  for (uint64_t seed = 1; seed <= hands; ++seed) {
-    const double gain_J = add(random_run(machine, stiffest_N_per_m, seed, settings), all);
-    if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
-  }
-  return all;
-}
-
 RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
                          Lines settings) {
   const Rig rig(seed, machine);
@@ -157,14 +158,17 @@ RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, ui
   return rig.run_guided(points_m, start_m, script, settings);
 }
 
+HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
+                       const Lines& settings) {
+  return of_seeds(
+      hands, [&](uint64_t seed) { return random_run(machine, stiffest_N_per_m, seed, settings); });
+}
+
 HandsGain guided_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
                        const Lines& settings) {
-  HandsGain all;
-  for (uint64_t seed = 1; seed <= hands; ++seed) {
-    const double gain_J = add(random_guided_run(machine, stiffest_N_per_m, seed, settings), all);
-    if (gain_J > all.worst_J) all.worst_J = gain_J, all.worst = "seed " + std::to_string(seed);
-  }
-  return all;
+  return of_seeds(hands, [&](uint64_t seed) {
+    return random_guided_run(machine, stiffest_N_per_m, seed, settings);
+  });
 }
 
 HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,

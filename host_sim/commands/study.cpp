@@ -39,7 +39,7 @@ int run_study(const cli::Arguments& options) {
 
 cli::Command study_command() {
   return {{"study", "passivity|failures [FILE|MACHINE ...] [options]", 1, SIZE_MAX, run_study},
-          "what linkages do to hands: energy that contact gives, and failures of the machine",
+          "what linkages do to hands: energy that contact and guides give, failures of the machine",
           R"(Without FILE: every machine. Exit code 1 where a bar is not met.
 passivity: hands of 50 to 3,000 N/m go in and out of solids, and about guides, anywhere
 in the joints' ranges, while stiffness, damping, radius, friction and tunnel change; then

@@ -1,4 +1,4 @@
-// One-sided guides: what their edges give a hand, and how deep a hand is in them.
+// What guides give a hand while their lines and settings change, and how deep a hand is in edges.
 #include <cmath>
 #include <cstdint>
 #include <initializer_list>

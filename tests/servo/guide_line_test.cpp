@@ -181,6 +181,8 @@ TEST(GuideEnergy_HandThatLeavesFast_IsNotPushedOn) {
   hand.settings.slew_limit_N_per_s = 100;
   CHECK(is_about(hand.go_N(0, -0.004f), 4, 0.01f));
   CHECK_LE(hand.force_y_N(-0.001f), 1.0f);
+  // What is counted is what acts, where nothing else does.
+  CHECK(is_about(hand.state.guide_energy.force_N.y, hand.state.force_N.y, 1e-6f));
   // It owes 4 mJ, of which 4.5 mJ pay: a stiffness that is raised does not pay the rest.
   CHECK(is_about(hand.go_N(-0.001f, -0.004f), 3, 0.02f));
   hand.hold(along_x(1100));

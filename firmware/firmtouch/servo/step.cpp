@@ -28,18 +28,16 @@ bool is_sound(const Settings& settings) {
          is_between(settings.energy.friction_N_per_m, 0.0f, kMaxStiffness_N_per_m);
 }
 
-// The share of a vector that `most` leaves.
-float share_within(Vec3 a, float most) {
+// The share of a vector that `most` leaves: in exact arithmetic it is not longer then. noinline: in
+// flash once.
+[[gnu::noinline]] float share_within(Vec3 a, float most) {
+  if (!(most >= kMinLimit_N)) return 0.0f;
   const float kept = most * (1.0f - 8.0f * kRound);
   const float is = math::length(a);
   return is <= kept ? 1.0f : kept / is;
 }
 
-// Shortens a vector to `most`: in exact arithmetic the result is not longer. noinline: in flash
-// once.
-[[gnu::noinline]] Vec3 shorten(Vec3 a, float most) {
-  return most >= kMinLimit_N ? a * share_within(a, most) : Vec3{};
-}
+Vec3 shorten(Vec3 a, float most) { return a * share_within(a, most); }
 
 bool lasts(uint32_t ticks, const Settings& settings, float most_s = kLasting_s) {
   return static_cast<float>(ticks) * settings.tick_period_s >= most_s;
@@ -161,17 +159,19 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   const float step_N = settings.slew_limit_N_per_s * settings.tick_period_s -
                        settings.force_limit_N * (4.0f * kRound);
   const Vec3 change_N = wanted_N - state.force_N;
-  const float moved = step_N >= kMinLimit_N ? share_within(change_N, step_N) : 0.0f;
+  const float moved = share_within(change_N, step_N);
   Vec3 force_N = shorten(state.force_N + change_N * moved, settings.force_limit_N);
   // A force that is not paid for must not last: it falls faster than its slew limit.
+  float left = 1;
   if (state.energy.is_unpaid || state.guide_energy.is_unpaid)
-    force_N = shorten(force_N, math::length(wanted_N));
-  // The parts lag behind as their sum does, so that they add up to it.
+    left = share_within(force_N, math::length(wanted_N));
+  force_N = force_N * left;
+  // The parts lag behind and fall as their sum does, so that they add up to it.
   const float kept = within * share;
   Vec3& part_N = state.part_N;
   Vec3& its_N = state.guide_energy.force_N;
-  part_N = part_N + (other_N * kept - part_N) * moved;
-  its_N = its_N + (guide_N * kept - its_N) * moved;
+  part_N = (part_N + (other_N * kept - part_N) * moved) * left;
+  its_N = (its_N + (guide_N * kept - its_N) * moved) * left;
   if (model.spring.is_used) state.energy.force_N = force_N - state.part_N;
   return force_N;
 }
