@@ -3,6 +3,7 @@
 // whose kinematics are the test's own.
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "controller/ride.hpp"
@@ -111,6 +112,7 @@ struct ArmRide {
   }
   void step(uint32_t tick) {
     const record::TickInput input = input_of(tick);
+    std::memset(&output, 0xA5, sizeof output);  // a tick writes all of it
     controller.tick(input, output);
     cartesian.step();
   }

@@ -2,6 +2,7 @@
 // An arm of three joints on a mesh, whose joints the test moves: what the tests of homing, index
 // pulses and second encoders stand on.
 #include <cmath>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct JointsRig {
     input.clock_us = input.tick * 1000;
     input.flags = flags;
     input.command = command;
+    std::memset(&output, 0xA5, sizeof output);  // a tick writes all of it
     controller.tick(input, output);
     log.push_back({input, output});
     ++input.tick;

@@ -33,6 +33,17 @@ TEST(ArmOfTheAsset_RendersTheForcesOfACartesianDevice) {
   CHECK_LE(different, 45u);  // of 9,000: rounding put the proxy on another face
 }
 
+TEST(Arm_OfTwoJoints_WritesTheWholeOutput) {
+  device::LinkageLayout layout = arm_with(20);
+  layout.joints = 2;
+  layout.joint[2] = {};
+  layout.max_torque_Nm[2] = 0;
+  ArmRide ride(layout);
+  ride.step(0);
+  CHECK_EQ(ride.output.faults, 0u);
+  for (const float torque_Nm : ride.output.motor_N) CHECK_EQ(torque_Nm, 0.0f);
+}
+
 // 100 g, 1 N s/m, 1 ms: 2,000 (1 - 0.005) / (1 + 0.005) = 1,980 N/m, whatever device_damping says.
 TEST(Arm_WallStifferThanStable_IsRefusedOrForced) {
   for (const bool is_forced : {false, true}) {

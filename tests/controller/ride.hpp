@@ -121,7 +121,10 @@ struct Ride {
     for (int k = 0; k < 3; ++k)
       input.encoder_counts[k] = static_cast<int32_t>(std::lround(p_m[k] * 100000));
   }
-  void step() { controller.tick(input, output); }
+  void step() {
+    std::memset(&output, 0xA5, sizeof output);  // a tick writes all of it
+    controller.tick(input, output);
+  }
   // In tick `tick`, with the motors disabled.
   void clear_faults(uint32_t tick) {
     fill(tick);

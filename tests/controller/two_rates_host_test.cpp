@@ -79,6 +79,27 @@ TEST(TheRecordKeepsWhichModelEachTickUsed) {
   }
 }
 
+// As damaged inputs may say.
+TEST(TwoRates_ModelWantedTwice_IsTheFirstOnes) {
+  float expected_m = 0;
+  for (const bool is_twice : {false, true}) {
+    Ride ride;
+    ride.fill(0);
+    ride.input.flags |= record::kFlagModelApart | record::kFlagModelWanted;
+    ride.step();
+    ride.fill(500);
+    ride.input.flags |= record::kFlagModelApart | (is_twice ? record::kFlagModelWanted : 0u);
+    ride.step();
+    ride.controller.make_model();
+    ride.fill(501);
+    ride.input.flags |= record::kFlagModelApart | record::kFlagModelTaken;
+    ride.step();
+    CHECK_GT(ride.output.distance_m, 0.0f);
+    if (is_twice) CHECK_EQ(ride.output.distance_m, expected_m);
+    expected_m = ride.output.distance_m;
+  }
+}
+
 TEST(TwoRates_ModelsOfAThread_LogReplays) {
   Ride ride;
   bool is_over = false;

@@ -35,7 +35,10 @@ uint32_t g_used, g_requested, g_interrupts;
 // One servo tick: takes a finished result, requests the next one, reads the current one.
 void servo() {
   if (g_models->take()) g_used = g_requested;
-  if (g_models->is_idle() && g_models->request(all(g_requested + 1))) ++g_requested;
+  if (g_models->is_idle()) {
+    g_models->request_draft() = all(++g_requested);
+    g_models->request();
+  }
   if (!is_all(g_models->result(), 2 * g_used)) g_torn = g_torn + 1;
 }
 

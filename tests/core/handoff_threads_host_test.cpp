@@ -37,15 +37,14 @@ TEST(Handoff_TwoThreads_TearNoRequestOrResult) {
     }
   });
   uint32_t taken = 0, torn_results = 0;
-  Words next;
   while (taken < wanted) {
     if (models.take()) {
       for (const uint32_t word : models.result().word) torn_results += word != ~taken;
       ++taken;
     }
     if (models.is_idle()) {
-      for (uint32_t& word : next.word) word = taken;
-      CHECK(models.request(next));
+      for (uint32_t& word : models.request_draft().word) word = taken;
+      models.request();
     } else {
       std::this_thread::yield();
     }

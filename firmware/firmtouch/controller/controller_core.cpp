@@ -108,7 +108,7 @@ ControllerCore::Tick ControllerCore::begin_tick(const record::TickInput& input,
   const bool enable = (input.flags & record::kFlagEnable) != 0;
   if (!enable && asset.is_ready) live_.enable_was_low = true;
   const bool clear = input.command == record::kCommandClearFaults && !enable;
-  output = {};
+  output.state = 0;
   if (clear) {
     servo::clear(live_.clock);
     guard_clear(live_.guard);
@@ -165,12 +165,15 @@ void ControllerCore::begin_model(const ModelRequest& request, const Values& v,
 ModelResult* ControllerCore::result_of_tick(Tick& tick, uint32_t flags) {
   if ((flags & record::kFlagModelApart) == 0) return &models_.result();
   if ((flags & record::kFlagModelTaken) != 0) models_.take();
-  if ((flags & record::kFlagModelWanted) != 0) {
+  if ((flags & record::kFlagModelWanted) != 0 && models_.is_idle()) {
     // Where this tick's model will have it: the last tick's proxy is of another ball.
     const servo::ProxySpring& spring = models_.result().model.spring;
     tick.request.has_proxy = spring.is_used;
     tick.request.proxy_m = servo::proxy_at(spring, tick.request.position_m);
-    models_.request({tick.request, values_});
+    ModelTask& task = models_.request_draft();
+    task.request = tick.request;
+    task.values = values_;
+    models_.request();
   }
   return nullptr;
 }
@@ -194,6 +197,9 @@ Push ControllerCore::step(const Tick& tick, uint32_t flags, record::TickOutput& 
   const servo::StepOutput wanted =
       servo::step(live_.servo, servo_settings(values_), models_.result().model, tick.step);
   put(output.proxy_m, wanted.proxy_m);
+  // What neither end_tick() nor every device writes.
+  for (uint32_t k = 0; k < record::kAxes; ++k)
+    output.motor_N[k] = output.force_N[k] = output.torque_Nm[k] = 0;
   Push push;
   push.force_N = wanted.force_N;
   push.is_on = is_on(wanted.mode);

@@ -27,14 +27,9 @@ class Handoff {
   bool is_idle() const { return state() == kIdle; }
   bool is_made() const { return state() == kMade; }
 
-  /// Fast side.
-  /// Result: false, and nothing requested, unless is_idle().
-  bool request(const Request& value) {
-    if (state() != kIdle) return false;
-    request_ = value;
-    __atomic_store_n(&state_, kRequested, __ATOMIC_RELEASE);
-    return true;
-  }
+  /// Fast side, while is_idle(): the request to fill in, and the call that hands it over.
+  Request& request_draft() { return request_; }
+  void request() { __atomic_store_n(&state_, kRequested, __ATOMIC_RELEASE); }
 
   /// Fast side: the finished result becomes result().
   /// Result: false, and result() unchanged, unless is_made().

@@ -104,7 +104,8 @@ Reading read(State& state, const Settings& settings, const Sample& sample) {
     faults |= kEncoderFault;
   }
   if (!clamp_to_workspace(state.position_m, settings)) faults |= kWorkspaceFault;
-  return {state.position_m, state.velocity_mps, faults, accepted, state.started};
+  const math::Vec3 at = state.position_m, v = state.velocity_mps;
+  return {{at.x, at.y, at.z}, {v.x, v.y, v.z}, faults, accepted, state.started};
 }
 
 void clear(State& state) {

@@ -44,7 +44,7 @@ bool is_sound(const LocalModel& model) {
   if (!model.has_guide) return true;
   const GuideLine& guide = model.guide;
   return is_near(guide.point_m) && is_unit(guide.direction) &&
-         (is_unit(guide.edge) || math::is_within(guide.edge, 0.0f)) &&
+         (math::is_within(guide.edge, 0.0f) || is_unit(guide.edge)) &&
          is_material(guide.stiffness_N_per_m, guide.damping_N_s_per_m) &&
          is_between(guide.tunnel_m, 0.0f, kMaxTunnel_m) &&
          math::is_within(guide.drive_N, kMaxDrive_N) &&

@@ -85,7 +85,7 @@ void change_mode(State& state, const Settings& settings, bool enable) {
     state.mode = Mode::kFault;
   } else if (state.mode == Mode::kOff && enable && state.uncertain_ticks == 0) {
     state.mode = Mode::kRampIn;
-    state.ticks_on = 0;
+    state.ramp_in_ticks = 0;
     state.part_N = {};
   } else if (state.mode > Mode::kFault) {  // no such mode: memory was corrupted
     state.mode = Mode::kFault;
@@ -137,13 +137,18 @@ float paid_share(State& state, const EnergySettings& counted, const LocalModel& 
   return paid_m < is_m ? paid_m / is_m : 1.0f;
 }
 
+float ramped_in(State& state, const Settings& settings) {
+  if (state.mode == Mode::kOn) return 1.0f;
+  const float ramp =
+      static_cast<float>(++state.ramp_in_ticks) * settings.tick_period_s / settings.ramp_in_s;
+  if (ramp < 1.0f) return ramp;
+  state.mode = Mode::kOn;
+  return 1.0f;
+}
+
 Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
               const StepInput& input, float spring_m, Vec3 off_m, float guide_share) {
-  if (state.ticks_on < UINT32_MAX) ++state.ticks_on;
-  const float ramp =
-      static_cast<float>(state.ticks_on) * settings.tick_period_s / settings.ramp_in_s;
-  if (!(ramp < 1.0f)) state.mode = Mode::kOn;
-  const float share = state.mode == Mode::kOn ? 1.0f : ramp;
+  const float share = ramped_in(state, settings);
   Vec3 other_N = planes_N(model, input.position_m, input.velocity_mps), guide_N;
   if (model.has_guide) {
     guide_N = pull_N(model.guide, off_m, input.velocity_mps, guide_share);

@@ -59,7 +59,7 @@ struct StepOutput {
 struct State {
   Mode mode = Mode::kOff;
   uint32_t faults = 0;
-  uint32_t ticks_on = 0;
+  uint32_t ramp_in_ticks = 0;
   uint32_t ramp_out_left = 0;
   math::Vec3 force_N;  // of the last tick
   math::Vec3 part_N;   // while on, what of it planes and guide make; in a ramp out, where it began
