@@ -9,12 +9,13 @@ not_run() {
   echo "README.md's are of another compiler than arm-none-eabi-g++ $ours"
 }
 
-check() { awk -f "$here/figures.awk" "$table" README.md firmware/firmtouch/hull/README.md; }
+check() { awk -f "$here/figures.awk" "$table" README.md firmware/firmtouch/hull/README.md firmware/firmtouch/servo/README.md; }
 
 edits() {
   cat <<'END'
 wrong_number @ README.md @ /`tools\/bench\/cortex-m7` |$/s/worst [0-9,]*/worst 1,234/ @ ^\| query with sign .*\| mean [0-9,]+, worst [0-9,]+ \| `tools/bench/cortex-m7` \|$
 wrong_flash @ README.md @ /`tools\/check\/image netduinoplus2`/s/| [0-9,]* B,/| 12,345 B,/ @ Cortex-M4F \| [0-9,]+ B, [0-9,]+ B, [0-9,]+ B \|
+wrong_figure_of_the_servo @ firmware/firmtouch/servo/README.md @ s/and worst [0-9,]* instructions/and worst 1,234 instructions/ @ servo/README.md: the servo at two rates was measured with mean
 wrong_figure_of_a_module @ firmware/firmtouch/hull/README.md @ s/and worst [0-9,]* instructions/and worst 1,234 instructions/ @ hull/README.md: the base hull of the demo part was measured with mean
 END
 }

@@ -36,6 +36,21 @@ constexpr uint32_t kSpecials[] = {0x00000000u, 0x80000000u, 0x00000001u, 0x80000
 
 }  // namespace
 
+TEST(Ranges_OfAnyBits_AreThoseOfComparisons) {
+  const float limits[] = {0.0f, 1e-9f, 1.0f, 1e4f, FLT_MAX};
+  firmtouch::test::Xorshift random(2);
+  uint32_t differing = 0;
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const uint32_t bits = i < sizeof kSpecials / 4 ? kSpecials[i] : random();
+    const float a = math::float_of(bits);
+    for (const float most : limits) {
+      differing += math::is_up_to(a, most) != (a >= 0.0f && a <= most);
+      differing += math::is_within(a, most) != (a >= -most && a <= most);
+    }
+  }
+  CHECK_EQ(differing, 0u);
+}
+
 TEST(PortableSquareRootHasTheBitsOfTheProcessors) {
   for (const uint32_t bits : kSpecials) CHECK(roots_agree(bits));
   uint32_t differ = 0;

@@ -31,11 +31,11 @@ math::Vec3 position_of(const State& state, const Settings& settings) {
 
 void estimate_velocity(State& state, const Settings& settings, const int32_t (&step)[kAxes],
                        float since_s) {
-  float velocity_mps[kAxes];
   for (uint32_t k = 0; k < kAxes; ++k)
-    velocity_mps[k] = estimate(state.velocity[k], settings.velocity, settings.counts_per_metre[k],
-                               to_float(step[k]), since_s);
-  state.velocity_mps = {velocity_mps[0], velocity_mps[1], velocity_mps[2]};
+    (void)estimate(state.velocity[k], settings.velocity, settings.counts_per_metre[k],
+                   to_float(step[k]), since_s);
+  state.velocity_mps = {state.velocity[0].units_per_s, state.velocity[1].units_per_s,
+                        state.velocity[2].units_per_s};
 }
 
 bool clamp_to_workspace(math::Vec3& position_m, const Settings& settings) {

@@ -43,5 +43,9 @@ static inline bool is_within(float a, float most) {
 static inline bool is_within(Vec3 a, float most) {
   return is_within(a.x, most) && is_within(a.y, most) && is_within(a.z, most);
 }
+/// True where 0 <= a <= most, on the bits. NaN fails; -0 is 0.
+static inline bool is_up_to(float a, float most) {
+  return bits_of(a) <= bits_of(most) || bits_of(a) == 0x80000000u;
+}
 
 }  // namespace firmtouch::math

@@ -11,22 +11,20 @@ namespace {
 using math::dot;
 using math::Vec3;
 
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
-
 [[gnu::noinline]] bool is_unit(const Vec3& a) {
-  return math::is_within(a, 2.0f) && is_between(dot(a, a), 0.98f, 1.02f);
+  return math::is_within(a, 2.0f) && math::is_within(dot(a, a) - 1.0f, 0.02f);
 }
 
 [[gnu::noinline]] bool is_near(const Vec3& a) { return math::is_within(a, kMaxPosition_m); }
 
-bool is_material(float stiffness_N_per_m, float damping_N_s_per_m) {
-  return is_between(stiffness_N_per_m, 0.0f, kMaxStiffness_N_per_m) &&
-         is_between(damping_N_s_per_m, 0.0f, kMaxDamping_N_s_per_m);
+bool is_material(const float& stiffness_N_per_m, const float& damping_N_s_per_m) {
+  return math::is_up_to(stiffness_N_per_m, kMaxStiffness_N_per_m) &&
+         math::is_up_to(damping_N_s_per_m, kMaxDamping_N_s_per_m);
 }
 
 bool is_sound(const ProxySpring& spring) {
   return is_near(spring.anchor_m) && math::is_within(spring.velocity_mps, kMaxVelocity_mps) &&
-         is_between(spring.reach_m, 0.0f, FLT_MAX) &&
+         math::is_up_to(spring.reach_m, FLT_MAX) &&
          is_material(spring.stiffness_N_per_m, spring.damping_N_s_per_m);
 }
 
@@ -34,7 +32,7 @@ bool is_sound(const ProxySpring& spring) {
 
 bool is_sound(const LocalModel& model) {
   if (model.plane_count > kMaxPlanes || !is_near(model.made_at_m)) return false;
-  if (!is_between(model.free_radius_m, 0.0f, FLT_MAX)) return false;
+  if (!math::is_up_to(model.free_radius_m, FLT_MAX)) return false;
   for (uint32_t i = 0; i < model.plane_count; ++i) {
     const ContactPlane& plane = model.plane[i];
     if (!is_unit(plane.normal) || !math::is_within(plane.offset_m, kMaxPosition_m)) return false;
@@ -46,10 +44,10 @@ bool is_sound(const LocalModel& model) {
   return is_near(guide.point_m) && is_unit(guide.direction) &&
          (math::is_within(guide.edge, 0.0f) || is_unit(guide.edge)) &&
          is_material(guide.stiffness_N_per_m, guide.damping_N_s_per_m) &&
-         is_between(guide.tunnel_m, 0.0f, kMaxTunnel_m) &&
+         math::is_up_to(guide.tunnel_m, kMaxTunnel_m) &&
          math::is_within(guide.drive_N, kMaxDrive_N) &&
          is_material(guide.drive_stiffness_N_per_m, guide.drive_damping_N_s_per_m) &&
-         is_between(guide.drive_limit_N, 0.0f, kMaxDriveLimit_N);
+         math::is_up_to(guide.drive_limit_N, kMaxDriveLimit_N);
 }
 
 Vec3 planes_N(const LocalModel& model, Vec3 position_m, Vec3 velocity_mps) {

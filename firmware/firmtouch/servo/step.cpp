@@ -15,17 +15,15 @@ constexpr float kRound = 0x1p-24f;
 // Far below what a motor driver resolves; below it, squares would lose digits to underflow.
 constexpr float kMinLimit_N = 1e-9f;
 
-bool is_between(float value, float low, float high) { return value >= low && value <= high; }
-
 bool is_on(Mode mode) { return mode == Mode::kRampIn || mode == Mode::kOn; }
 
 bool is_sound(const Settings& settings) {
-  return is_between(settings.force_limit_N, 0.0f, kMaxForceLimit_N) &&
-         is_between(settings.slew_limit_N_per_s, 0.0f, kMaxSlewLimit_N_per_s) &&
-         is_between(settings.ramp_in_s, 0.0f, 100.0f) &&
-         is_between(settings.tick_period_s, 1e-5f, kMaxTickPeriod_s) &&
-         is_between(settings.energy.reservoir_J, 0.0f, kMaxReservoir_J) &&
-         is_between(settings.energy.friction_N_per_m, 0.0f, kMaxStiffness_N_per_m);
+  return math::is_up_to(settings.force_limit_N, kMaxForceLimit_N) &&
+         math::is_up_to(settings.slew_limit_N_per_s, kMaxSlewLimit_N_per_s) &&
+         math::is_up_to(settings.ramp_in_s, 100.0f) && settings.tick_period_s >= 1e-5f &&
+         math::is_up_to(settings.tick_period_s, kMaxTickPeriod_s) &&
+         math::is_up_to(settings.energy.reservoir_J, kMaxReservoir_J) &&
+         math::is_up_to(settings.energy.friction_N_per_m, kMaxStiffness_N_per_m);
 }
 
 // The share of a vector that `most` leaves: in exact arithmetic it is not longer then. noinline: in
