@@ -73,6 +73,28 @@ double given_by_sine_J(float reservoir_J, uint32_t ticks, float period_ticks) {
 
 }  // namespace
 
+// A reservoir that was raised before enabling filled up from what contact dissipates alone.
+TEST(Energy_WhenEnabled_TheReservoirIsFull) {
+  servo::StepInput input;
+  input.position_m = {0, 0, 0.0001f};
+  const float both_J[] = {0.0f, 1.0f};
+  for (const float reservoir_J : both_J) {
+    servo::State state;
+    input.enable = false;
+    (void)servo::step(state, settings(0.5f), wall(1.0f), input);
+    (void)servo::step(state, settings(reservoir_J), wall(1.0f), input);
+    input.enable = true;
+    for (int i = 0; i < 2; ++i) {
+      (void)servo::step(state, settings(reservoir_J), wall(1.0f), input);
+      ++input.tick;
+    }
+    CHECK_EQ(state.energy.available_J, reservoir_J);
+    CHECK_EQ(state.guide_energy.available_J, reservoir_J);
+    (void)servo::step(state, settings(2.0f), wall(1.0f), input);
+    CHECK_EQ(state.energy.available_J, reservoir_J);
+  }
+}
+
 // At 5 N a tick a tool that leaves fast was pushed on outside of the wall.
 TEST(Energy_ToolThatLeft_IsPushedNoMore) {
   Tool tool(kReservoir_J);
@@ -203,14 +225,14 @@ TEST(Energy_DriveBeyondTheSlewLimit_IsNotCounted) {
 // Something else moves the proxy on, as a turn of the tool does, and the hand gives way.
 TEST(Energy_StretchThatGrowsWhileTheHandGivesWay_GivesNoMoreThanTheReservoir) {
   servo::Energy energy;
-  float at_m = 0, stretch_m = 0, force_N = 0;
+  float stretch_m = 0, force_N = 0;
   double given_J = 0;
   for (int i = 0; i < 200; ++i) {
-    if (i >= 50) at_m += 0.00005f;
-    given_J += i < 50 ? 0.0 : static_cast<double>(force_N) * 0.00005;
+    const float move_m = i < 50 ? 0.0f : 0.00005f;
+    given_J += static_cast<double>(force_N) * static_cast<double>(move_m);
     stretch_m += 0.00001f;
-    const float payable_m = servo::payable_stretch_m(energy, {kReservoir_J, 0.0f},
-                                                     kStiffness_N_per_m, stretch_m, {0, 0, at_m});
+    const float payable_m = servo::payable_stretch_m(
+        energy, {kReservoir_J, 0.0f}, kStiffness_N_per_m, stretch_m, {0, 0, move_m}, {});
     force_N = kStiffness_N_per_m * payable_m;
     energy.force_N = {0, 0, force_N};
     CHECK_EQ(energy.overdrawn_ticks, 0u);
@@ -218,17 +240,41 @@ TEST(Energy_StretchThatGrowsWhileTheHandGivesWay_GivesNoMoreThanTheReservoir) {
   CHECK_LE(given_J, static_cast<double>(kReservoir_J) + 0.0002);
 }
 
+// A square of the motion credited 19 uW that no friction took: a hand got it from a guide for as
+// long as it liked.
+TEST(Energy_FrictionOfMotion_Fills_EncoderStepsToAndFroDoNot) {
+  constexpr float kFriction_N_per_m = 500;
+  const auto filled_J = [](const float(&moves_m)[4]) {
+    servo::Energy energy;
+    energy.available_J = 0;
+    float before_m = moves_m[3];
+    for (int i = 0; i < 40; ++i) {
+      const float move_m = moves_m[i % 4];
+      (void)servo::payable_stretch_m(energy, {1.0f, kFriction_N_per_m}, kStiffness_N_per_m, 0,
+                                     {0, 0, move_m}, {0, 0, before_m});
+      before_m = move_m;
+    }
+    return energy.available_J;
+  };
+  constexpr float kCount_m = 1e-5f, kTaken_J = kFriction_N_per_m * kCount_m * kCount_m;
+  CHECK_EQ(filled_J({kCount_m, -kCount_m, kCount_m, -kCount_m}), 0.0f);
+  CHECK_EQ(filled_J({kCount_m, 0, 0, 0}), 0.0f);  // a quarter of a count a tick takes 2.5 of these
+  CHECK_LE(filled_J({kCount_m, kCount_m, kCount_m, 0}), 22.5f * kTaken_J);  // three quarters
+  const float even_J = filled_J({kCount_m, kCount_m, kCount_m, kCount_m});
+  CHECK(even_J >= 39.9f * kTaken_J && even_J <= 40.1f * kTaken_J);
+}
+
 TEST(Energy_EverySpecial_LeavesAStretchThatIsFiniteAndFillsNothing) {
   for (const uint32_t a : kSpecialBits)
     for (const uint32_t b : kSpecialBits) {
       servo::Energy energy;
       (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m,
-                                     math::float_of(a), {math::float_of(b), 0, 0});
+                                     math::float_of(a), {math::float_of(b), 0, 0}, {});
       energy.force_N = {math::float_of(b), 0, math::float_of(a)};
       (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m, 0.001f,
-                                     {});
-      const float stretch_m =
-          servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m, 0.001f, {});
+                                     {math::float_of(a), 0, 0}, {math::float_of(b), 0, 0});
+      const float stretch_m = servo::payable_stretch_m(energy, {kReservoir_J, 500.0f},
+                                                       kStiffness_N_per_m, 0.001f, {}, {});
       CHECK(stretch_m >= 0.0f && stretch_m <= 0.001f);
       const float most_J = 0.5f * kStiffness_N_per_m * 1e-6f + kReservoir_J;
       CHECK(energy.available_J <= most_J * 1.000001f);

@@ -47,6 +47,8 @@ struct Hand {
   }
 };
 
+float to_and_fro_m(int tick) { return 0.001f * static_cast<float>(tick % 4 == 3 ? 1 : tick % 4); }
+
 float stretch_at_m(const servo::GuideLine& line, Vec3 at_m) {
   return servo::stretch_m(line, servo::guided_off_m(line, at_m));
 }
@@ -205,7 +207,7 @@ TEST(GuideEnergy_FrictionOfTheDevice_CountsWhileNotInContact) {
     hand.hold(along_x(1000));
     hand.state.energy.available_J = 0;
     for (int i = 0; i < 100; ++i) {
-      hand.x_m = i % 2 == 0 ? 0.001f : 0;  // along the guide
+      hand.x_m = to_and_fro_m(i);  // along the guide
       hand.force_y_N(0);
     }
     hand.hold(along_x(1000, 0.01f));
@@ -224,7 +226,9 @@ TEST(GuideEnergy_WithoutAGuide_FrictionFillsTheReservoirOfContact) {
   hand.model.has_guide = false;
   hand.force_y_N(0);
   hand.state.energy.available_J = 0;
-  for (int i = 0; i < 10; ++i) hand.force_y_N(i % 2 == 0 ? 0.001f : 0);
+  for (int i = 0; i < 10; ++i) hand.force_y_N(i % 2 == 0 ? 0.001f : 0);  // an encoder's steps
+  CHECK_EQ(hand.state.energy.available_J, 0.0f);
+  for (int i = 0; i < 10; ++i) hand.force_y_N(to_and_fro_m(i));
   CHECK(is_about(hand.state.energy.available_J, kReservoir_J, 1e-7f));
 }
 

@@ -135,7 +135,6 @@ TEST(SameInputsGiveTheSameBits) {
     CHECK_EQ(math::bits_of(x.force_N.z), math::bits_of(y.force_N.z));
     CHECK(x.mode == y.mode);
     CHECK_EQ(x.faults, y.faults);
-    CHECK_EQ(x.in_free_radius, y.in_free_radius);
   }
 }
 

@@ -315,11 +315,3 @@ TEST(LoweredLimitTakesForceAwayAtOnce) {
   low.force_limit_N = 0.0f;
   CHECK_EQ(servo::step(state, low, floor_model(), at(-0.001f, 101)).force_N.z, 0.0f);
 }
-
-TEST(FreeRadius_IsReported) {
-  servo::State state;
-  servo::LocalModel model = floor_model();
-  model.made_at_m = {0, 0, 0.02f};
-  CHECK(servo::step(state, kSettings, model, at(0.011f, 0)).in_free_radius);
-  CHECK(!servo::step(state, kSettings, model, at(0.009f, 1)).in_free_radius);
-}

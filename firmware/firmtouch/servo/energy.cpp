@@ -5,9 +5,9 @@
 namespace firmtouch::servo {
 
 float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
-                        float stretch_m, math::Vec3 position_m, math::Vec3 carried_m) {
-  const math::Vec3 move_m = position_m - energy.position_m - carried_m;
-  const float given_J = math::dot(energy.force_N - move_m * settings.friction_N_per_m, move_m);
+                        float stretch_m, math::Vec3 move_m, math::Vec3 before_m) {
+  const float lost_J = math::larger(settings.friction_N_per_m * math::dot(move_m, before_m), 0.0f);
+  const float given_J = math::dot(energy.force_N, move_m) - lost_J;
   const float stored_J = 0.5f * stiffness_N_per_m * stretch_m * stretch_m;
   float available_J = energy.available_J - given_J;
   const float most_J = stored_J + settings.reservoir_J;
@@ -15,7 +15,6 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   const float entered_m = stretch_m - energy.stretch_m;
   const float grown_m = energy.payable_m + entered_m;
   energy.available_J = available_J;
-  energy.position_m = position_m;
   energy.stretch_m = stretch_m;
   energy.payable_m = stretch_m;
   const bool is_giving = given_J > 0.0f, is_out = !(stretch_m > 0.0f) && is_giving;

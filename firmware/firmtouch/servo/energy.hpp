@@ -23,20 +23,20 @@ struct EnergySettings {
 /// Passivity observer of a spring, of the proxy or of a guide: the energy that it may still give to
 /// the hand. What the hand put into the spring, plus a reservoir, less what it gave back.
 struct Energy {
-  float available_J = FLT_MAX;   // limited to a full reservoir in the first tick
+  float available_J = FLT_MAX;   // limited to a full reservoir; anew where the motors come on
   float stretch_m = 0;           // of the spring in the last tick
   float entered_m = 0;           // growth of the stretch in the last tick
   float payable_m = 0;           // result of the last tick
-  math::Vec3 position_m;         // of the last tick
   math::Vec3 force_N;            // applied since then; the caller sets it
   uint16_t overdrawn_ticks = 0;  // without a break, by more than kOverdraft_J
   bool is_unpaid = false;        // another tick of the last force is not paid for
 };
 
 /// Counts the work of the last tick and limits the spring to the energy that is left.
-/// The work is exact: between two samples the motors hold the force. The device's friction takes
-/// its part, at least that of an even speed. `carried_m`: what a moving object displaced the proxy
-/// by since the last tick; its work is not the surface's, so only motion relative to it counts.
+/// The work is exact: between two samples the motors hold the force. `move_m`: of the tool since
+/// the last tick, less what a moving object displaced the proxy by; its work is not the surface's.
+/// `before_m`: that of the tick before. The device's friction takes the product of both: a square
+/// would count an encoder's steps to and fro as motion.
 /// Energy that the spring dissipates fills the reservoir up and is not saved beyond it.
 /// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
 ///         empty. From then on
@@ -49,6 +49,6 @@ struct Energy {
 /// Source: Hannaford and Ryu 2002 (observer); Lee and Huang 2010 (the spring is shortened to its
 ///         energy: no velocity is used, so that an encoder's steps make no force).
 float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
-                        float stretch_m, math::Vec3 position_m, math::Vec3 carried_m = {});
+                        float stretch_m, math::Vec3 move_m, math::Vec3 before_m);
 
 }  // namespace firmtouch::servo

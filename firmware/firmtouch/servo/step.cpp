@@ -1,5 +1,7 @@
 #include "firmtouch/servo/step.hpp"
 
+#include <float.h>
+
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "firmtouch/servo/fault.hpp"
@@ -85,6 +87,7 @@ void change_mode(State& state, const Settings& settings, bool enable) {
     state.mode = Mode::kRampIn;
     state.ramp_in_ticks = 0;
     state.part_N = {};
+    state.energy.available_J = state.guide_energy.available_J = FLT_MAX;
   } else if (state.mode > Mode::kFault) {  // no such mode: memory was corrupted
     state.mode = Mode::kFault;
   }
@@ -100,18 +103,18 @@ Vec3 ramped_out(State& state, const Settings& settings) {
 // Moves the proxy, and counts the energy of the last tick.
 // Result: the largest stretch of the spring.
 float move_spring(State& state, const EnergySettings& counted, const ProxySpring& spring,
-                  Vec3 position_m, float tick_period_s) {
+                  Vec3 move_m, Vec3 before_m) {
+  const Vec3 position_m = state.position_m;
   state.has_proxy = spring.is_used;
   state.proxy_m = proxy_at(spring, position_m);
   return payable_stretch_m(state.energy, counted, spring.is_used ? spring.stiffness_N_per_m : 0.0f,
-                           math::length(state.proxy_m - position_m), position_m,
-                           spring.velocity_mps * tick_period_s);
+                           math::length(state.proxy_m - position_m), move_m, before_m);
 }
 
 // Counts the energy of the guide's last tick. `off_m`: of the tool, as far as the guide acts on it.
 // Result: the share of its spring that is paid for.
 float paid_share(State& state, const EnergySettings& counted, const LocalModel& model, Vec3 off_m,
-                 Vec3 position_m) {
+                 Vec3 before_m) {
   Energy& energy = state.guide_energy;
   const float last_N_per_m = state.guide_N_per_m;
   const float stiffness = model.has_guide ? model.guide.stiffness_N_per_m : -1.0f;
@@ -123,7 +126,8 @@ float paid_share(State& state, const EnergySettings& counted, const LocalModel& 
       energy.available_J += 0.5f * stiffness * is_m * is_m;
     } else {
       // The last tick's, from this model's line.
-      energy.stretch_m = stretch_m(model.guide, guided_off_m(model.guide, energy.position_m));
+      energy.stretch_m =
+          stretch_m(model.guide, guided_off_m(model.guide, state.position_m - state.move_m));
       if (stiffness > last_N_per_m) {  // the same force, and less energy
         energy.payable_m *= last_N_per_m / stiffness;
         const float stored_J = 0.5f * stiffness * energy.payable_m * energy.payable_m;
@@ -131,7 +135,7 @@ float paid_share(State& state, const EnergySettings& counted, const LocalModel& 
       }
     }
   }
-  const float paid_m = payable_stretch_m(energy, counted, stiffness, is_m, position_m);
+  const float paid_m = payable_stretch_m(energy, counted, stiffness, is_m, state.move_m, before_m);
   return paid_m < is_m ? paid_m / is_m : 1.0f;
 }
 
@@ -190,13 +194,18 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   const bool counts = is_on(state.mode) || (input.enable && state.mode == Mode::kOff);
   state.uncertain_ticks = model.is_uncertain && counts ? state.uncertain_ticks + 1 : 0;
   // The device's friction pays for one of two springs: for that of contact while it is stretched.
-  EnergySettings of_contact = settings.energy, of_guide = settings.energy;
   const bool pays_for_guide = model.has_guide && !(state.energy.stretch_m > 0.0f);
-  (pays_for_guide ? of_contact : of_guide).friction_N_per_m = 0;
+  const EnergySettings without{settings.energy.reservoir_J, 0};
+  const EnergySettings& of_contact = pays_for_guide ? without : settings.energy;
+  const EnergySettings& of_guide = pays_for_guide ? settings.energy : without;
+  const Vec3 before_m = state.move_m;
+  state.move_m = input.position_m - state.position_m;
+  state.position_m = input.position_m;
+  const Vec3 carried_m = model.spring.velocity_mps * settings.tick_period_s;
   const float spring_m =
-      move_spring(state, of_contact, model.spring, input.position_m, settings.tick_period_s);
+      move_spring(state, of_contact, model.spring, state.move_m - carried_m, before_m - carried_m);
   const Vec3 off_m = model.has_guide ? guided_off_m(model.guide, input.position_m) : Vec3{};
-  const float guide_share = paid_share(state, of_guide, model, off_m, input.position_m);
+  const float guide_share = paid_share(state, of_guide, model, off_m, before_m);
   uint32_t faults = seen_faults(state, settings, model, input);
   if (!counts) faults &= ~kOnlyWhileOn;
   state.faults |= faults;
@@ -222,7 +231,6 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   output.proxy_m = state.proxy_m;
   output.mode = state.mode;
   output.faults = state.faults;
-  output.in_free_radius = math::length(input.position_m - model.made_at_m) < model.free_radius_m;
   return output;
 }
 

@@ -52,8 +52,7 @@ struct StepOutput {
   math::Vec3 force_N;
   math::Vec3 proxy_m;  // the tool's position where there is no proxy
   Mode mode = Mode::kOff;
-  uint32_t faults = 0;          // latched
-  bool in_free_radius = false;  // no surface can be between here and where the model was made
+  uint32_t faults = 0;  // latched
 };
 
 struct State {
@@ -61,8 +60,9 @@ struct State {
   uint32_t faults = 0;
   uint32_t ramp_in_ticks = 0;
   uint32_t ramp_out_left = 0;
-  math::Vec3 force_N;  // of the last tick
-  math::Vec3 part_N;   // while on, what of it planes and guide make; in a ramp out, where it began
+  math::Vec3 force_N;             // of the last tick
+  math::Vec3 position_m, move_m;  // of the tool in the last tick
+  math::Vec3 part_N;  // while on, what of it planes and guide make; in a ramp out, where it began
   math::Vec3 proxy_m;
   bool has_proxy = false;
   uint32_t uncertain_ticks = 0;  // of the models while enabled, without a break
