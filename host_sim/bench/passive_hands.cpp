@@ -14,8 +14,10 @@ namespace {
 // Of random hands; a linkage that is pushed out of its ranges faults, and renders nothing any more.
 constexpr double kReachOfLinkage_m = 0.012;
 
-// A spring of 100 N/m or more, the softest here, then holds 12 uJ at most.
+// A spring of 100 N/m or more, the softest here, then holds 12 uJ at most: where the force was as
+// small for so long. It lags behind a line that is another one, and passes 0 where it turns.
 constexpr double kSlack_N = 0.05;
+constexpr uint32_t kSlackTicks = 25;
 
 double in_range(double share, double low, double high) { return low * std::pow(high / low, share); }
 
@@ -50,14 +52,23 @@ std::vector<std::string> random_script(tools::Random& random, double reach_m, do
   return script;
 }
 
-// Shares of the ranges of a hand that knocks.
-struct Knock {
-  static constexpr int kSize = 7;
-  double share[kSize];
-};
+// Of the ranges of what a search changes: of a hand that knocks on a plate, or pulls at a guide.
+constexpr size_t kOfKnock = 7, kOfPull = 3 * 6 + 8;
+using Shares = std::vector<double>;
 
-RigRun knock(const Rig& rig, const Knock& by, double stiffest_N_per_m, Lines settings) {
-  const double* share = by.share;
+std::vector<std::string> to_and_fro(const std::vector<Vec>& stops_m, double speed_mps, int times,
+                                    double rest_s) {
+  std::vector<std::string> script = {Rig::hold_s(0.3)};
+  for (int i = 0; i < times; ++i)
+    for (const Vec stop_m : stops_m) {
+      script.push_back(Rig::to(stop_m, speed_mps));
+      if (rest_s > 0) script.push_back(Rig::hold_s(rest_s));
+    }
+  script.push_back(Rig::hold_s(0.3));
+  return script;
+}
+
+RigRun knock(const Rig& rig, const Shares& share, double stiffest_N_per_m, Lines settings) {
   const Vec up_m{0.0123, 0.0071, rig.radius_m + in_range(share[0], 1e-4, 0.02)},
       down_m{0.0123, 0.0071, rig.radius_m - in_range(share[1], 1e-4, 0.02)};
   const double speed_mps = in_range(share[2], 0.02, 2);
@@ -65,13 +76,33 @@ RigRun knock(const Rig& rig, const Knock& by, double stiffest_N_per_m, Lines set
   settings.emplace_back("contact_stiffness",
                         with_unit(in_range(share[5], 500, stiffest_N_per_m), "N/m"));
   settings.emplace_back("contact_damping", with_unit(in_range(share[6], 0.01, 10), "N*s/m"));
-  std::vector<std::string> script = {Rig::hold_s(0.3)};
-  for (int i = 0; i < 10; ++i) {
-    script.push_back(Rig::to(down_m, speed_mps));
-    script.push_back(Rig::to(up_m, speed_mps));
+  return rig.run(plate(0.04), up_m, to_and_fro({down_m, up_m}, speed_mps, 10, 0), Contact::kProxy,
+                 settings);
+}
+
+// From stop to stop among four corners of a guide, whose stiffness changes between two.
+RigRun pull(const Rig& rig, const Shares& share, double stiffest_N_per_m, Lines settings) {
+  std::vector<Vec> places_m;
+  for (size_t i = 0; i < 6; ++i) {
+    const double* at = &share[3 * i];
+    places_m.push_back(Vec{2 * at[0] - 1, 2 * at[1] - 1, 2 * at[2] - 1} * kReachOfLinkage_m);
   }
-  script.push_back(Rig::hold_s(0.3));
-  return rig.run(plate(0.04), up_m, script, Contact::kProxy, settings);
+  const std::vector<Vec> points_m(places_m.begin(), places_m.begin() + 4);
+  const double* drawn = &share[3 * 6];
+  add_hand(drawn[0], drawn[1], settings);
+  settings.emplace_back("guide_stiffness",
+                        with_unit(in_range(drawn[2], 100, stiffest_N_per_m), "N/m"));
+  settings.emplace_back("guide_damping", with_unit(in_range(drawn[3], 0.01, 10), "N*s/m"));
+  settings.emplace_back("guide_arc_penalty", with_unit(0.5 * drawn[4], ""));
+  for (const char* key : {"guide_snap", "guide_release"}) settings.emplace_back(key, "0.5 m");
+  const double speed_mps = in_range(drawn[5], 0.05, 2);
+  std::vector<std::string> script =
+      to_and_fro({places_m[4], places_m[1], places_m[5], places_m[2]}, speed_mps, 4, 0.06);
+  for (int i = 0; i < 20; ++i)
+    script.push_back("at " + with_unit(0.4 + in_range(drawn[6], 0.01, 0.5) * i, "s") +
+                     " set guide_stiffness " +
+                     with_unit(in_range(drawn[i % 2 == 0 ? 7 : 2], 100, stiffest_N_per_m), "N/m"));
+  return rig.run_guided(points_m, points_m[0], script, settings);
 }
 
 // Result: its gain.
@@ -100,18 +131,15 @@ HandsGain of_seeds(uint32_t hands, const RunOf& run_of) {
 }  // namespace
 
 double gain_J(const RigRun& run) {
-  const auto holds_energy = [](const RigTick& tick) {
-    return tick.depth_m > 0 || (tick.is_guided && norm(tick.force_N) > kSlack_N);
-  };
-  const auto begin = std::find_if(run.begin(), run.end(), [&](const RigTick& tick) {
-    return tick.is_ramped_in && !holds_energy(tick);
-  });
-  if (begin == run.end()) return 0;
-  double most_J = begin->taken_J, gain_J = 0;
-  for (auto tick = begin; tick != run.end() && tick->is_ramped_in; ++tick) {
-    if (holds_energy(*tick)) continue;
-    most_J = std::max(most_J, tick->taken_J);
-    gain_J = std::max(gain_J, most_J - tick->taken_J);
+  double most_J = -HUGE_VAL, gain_J = 0;
+  uint32_t slack_ticks = 0;
+  for (const RigTick& tick : run) {
+    slack_ticks = tick.is_guided && norm(tick.force_N) > kSlack_N ? 0 : slack_ticks + 1;
+    if (!tick.is_ramped_in && most_J > -HUGE_VAL) break;
+    const bool holds_energy = tick.depth_m > 0 || (tick.is_guided && slack_ticks < kSlackTicks);
+    if (!tick.is_ramped_in || holds_energy) continue;
+    most_J = std::max(most_J, tick.taken_J);
+    gain_J = std::max(gain_J, most_J - tick.taken_J);
   }
   return gain_J;
 }
@@ -188,21 +216,22 @@ HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uin
   return all;
 }
 
-HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, uint32_t starts,
-                     uint32_t tries, const Lines& settings) {
+HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, Against against,
+                     uint32_t starts, uint32_t tries, const Lines& settings) {
+  const bool is_guided = against == Against::kGuide;
   HandsGain all;
   tools::Random random(1);
   for (uint32_t start = 0; start < starts; ++start) {
     const Rig rig(machine.empty() ? 0 : start + 1, machine);
-    const auto gain_of = [&](const Knock& by) {
-      return add(knock(rig, by, stiffest_N_per_m, settings), all);
+    const auto gain_of = [&](const Shares& by) {
+      return add((is_guided ? pull : knock)(rig, by, stiffest_N_per_m, settings), all);
     };
-    Knock best{};
-    for (double& share : best.share) share = random.uniform();
+    Shares best(is_guided ? kOfPull : kOfKnock);
+    for (double& share : best) share = random.uniform();
     double best_J = gain_of(best);
     for (uint32_t attempt = 0; attempt < tries; ++attempt) {
-      Knock next = best;
-      double& share = next.share[random.below(Knock::kSize)];
+      Shares next = best;
+      double& share = next[random.below(static_cast<uint32_t>(next.size()))];
       share = std::clamp(share + random.between(-0.3, 0.3), 0.0, 1.0);
       const double next_J = gain_of(next);
       if (next_J >= best_J) best = next, best_J = next_J;
@@ -210,7 +239,7 @@ HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, uint32
     if (best_J <= all.worst_J) continue;
     all.worst_J = best_J;
     all.worst = "start " + std::to_string(start) + ", shares";
-    for (const double share : best.share) all.worst += " " + bench::number_text(share);
+    for (const double share : best) all.worst += " " + bench::number_text(share);
   }
   return all;
 }

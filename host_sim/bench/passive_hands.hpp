@@ -40,9 +40,11 @@ HandsGain guided_hands(const std::string& machine, double stiffest_N_per_m, uint
 HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
                         const Lines& settings);
 
-/// Hands that knock on a plate, changed from random ones to the one that gains most: its aim, speed
-/// and impedance, the contact's stiffness and damping. On a linkage every start has its own pose.
-HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, uint32_t starts,
-                     uint32_t tries, const Lines& settings);
+enum class Against { kPlate, kGuide };
+/// Hands that knock on a plate, or pull across a corner of a guide, changed from random ones to the
+/// one that gains most: its aim, speed and impedance, stiffness and damping of contact or guide,
+/// and the corner. On a linkage every start has its own pose.
+HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, Against against,
+                     uint32_t starts, uint32_t tries, const Lines& settings);
 
 }  // namespace firmtouch::host_sim

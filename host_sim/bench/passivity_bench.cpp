@@ -90,7 +90,12 @@ void run_passivity_bench(const bench::Options& options, bench::Report& report) {
           guided_hands("", 5000, options.is_long ? 800 : 40, lines), is_limited, report);
     }
     add("worst hand found by hill climbing: energy given", "to 20000 N/m",
-        worst_hand("", 20000, options.is_long ? 40 : 8, 25, reservoir(is_limited)), is_limited,
+        worst_hand("", 20000, Against::kPlate, options.is_long ? 40 : 8, 25, reservoir(is_limited)),
+        is_limited, report);
+    Lines late = reservoir(is_limited);
+    late.emplace_back("geometry_rate", "50 Hz");
+    add("the same about a guide: energy given", "models at 50 Hz",
+        worst_hand("", 20000, Against::kGuide, options.is_long ? 40 : 4, 100, late), is_limited,
         report);
   }
 }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMaxGain_mJ = 1, kStiffest_N_per_m = 20000, kPeriod_s = 1e-3;
 constexpr uint32_t kSteps[] = {0, 0, 100, 20};  // of a joint, by the number of joints
-constexpr double kRows = 5;                     // of a machine
+constexpr double kRows = 6;                     // of a machine
 constexpr uint32_t kTries = 19;                 // of a start, beside itself
 
 std::string remark_of(const HandsGain& gain) {
@@ -45,7 +45,10 @@ void study_passivity(const std::vector<std::string>& machines, uint32_t hands,
     said("hands with a mass: energy given", massive_hands(machine, stiffest_N_per_m, hands, {}));
     said("hands about a guide: energy given", guided_hands(machine, stiffest_N_per_m, hands, {}));
     said("worst hand found by hill climbing: energy given",
-         worst_hand(machine, stiffest_N_per_m, starts, kTries, {}));
+         worst_hand(machine, stiffest_N_per_m, Against::kPlate, starts, kTries, {}));
+    said("the same about a guide: energy given",
+         worst_hand(machine, stiffest_N_per_m, Against::kGuide, starts, kTries,
+                    {{"geometry_rate", "50 Hz"}}));
     const HandsGain without =
         random_hands(machine, kStiffest_N_per_m, hands, {{"energy_reservoir", "1000 J"}});
     report.bar_at_least("the same of random hands, not limited", machine, 1e3 * without.worst_J,
