@@ -222,6 +222,45 @@ TEST(Energy_DriveBeyondTheSlewLimit_IsNotCounted) {
   }
 }
 
+// A tool that had left the ball of a model 20 ms old, and was on its way back, was given 1.9 mJ.
+TEST(Energy_BallOfALateModelThatTheToolLeft_PullsWithWhatIsPaidFor) {
+  const float before_m[] = {0.00557f, 0.005f};
+  for (const float last_m : before_m) {
+    servo::LocalModel model = wall(1.0f);
+    servo::State state;
+    servo::StepInput input;
+    servo::StepOutput output;
+    input.enable = true;
+    for (input.tick = 1; input.tick < 4; ++input.tick) {
+      input.position_m = {0, 0, input.tick < 3 ? last_m : 0.0053f};
+      if (input.tick == 3) model.made_tick = 1, model.spring.reach_m = 0.005f;
+      model.spring.stiffness_N_per_m = 20000;
+      output = servo::step(state, settings(kReservoir_J), model, input);
+    }
+    const bool is_leaving = last_m > 0.0053f;
+    CHECK_LE(output.force_N.z, is_leaving ? -0.9f : -5.9f);
+    CHECK_GE(output.force_N.z, is_leaving ? -1.0f : -6.1f);
+  }
+}
+
+// The proxy that each tick's own model moves along is no motion of the tool away from it.
+TEST(Energy_SlideWithAnEmptyReservoir_KeepsItsForce) {
+  constexpr float kDepth_m = 0.001f;
+  servo::State state;
+  servo::StepInput input;
+  input.enable = true;
+  for (input.tick = 1; input.tick < 60; ++input.tick) {
+    const float x_m = 0.0001f * static_cast<float>(input.tick);
+    input.position_m = {x_m, 0, -kDepth_m};
+    servo::LocalModel model = wall(-kDepth_m);
+    model.spring.anchor_m = {x_m, 0, 0};
+    model.made_tick = input.tick;
+    const servo::StepOutput output = servo::step(state, settings(kReservoir_J), model, input);
+    if (input.tick == 10) state.energy.available_J = 0;
+    if (input.tick > 1) CHECK_GE(output.force_N.z, 0.999f * kStiffness_N_per_m * kDepth_m);
+  }
+}
+
 // Something else moves the proxy on, as a turn of the tool does, and the hand gives way.
 TEST(Energy_StretchThatGrowsWhileTheHandGivesWay_GivesNoMoreThanTheReservoir) {
   servo::Energy energy;

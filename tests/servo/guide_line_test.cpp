@@ -30,7 +30,10 @@ struct Hand {
   bool is_enabled = true;
 
   explicit Hand(const servo::GuideLine& line) { hold(line); }
-  void hold(const servo::GuideLine& line) { model.guide = line, model.has_guide = true; }
+  void hold(const servo::GuideLine& line) {
+    model.guide = line, model.has_guide = true;
+    ++model.made_tick;
+  }
   float force_y_N(float y_m) {
     model.expires_tick = ++tick;
     return servo::step(state, settings, model, {{x_m, y_m, 0}, {}, tick, is_enabled, false, 0})

@@ -100,11 +100,17 @@ Vec3 ramped_out(State& state, const Settings& settings) {
   return shorten(state.part_N * share, settings.force_limit_N);
 }
 
-// Moves the proxy, and counts the energy of the last tick.
+// Moves the proxy, and counts the energy of the last tick. `is_late`: a model of an earlier tick
+// begins, so that the spring's last stretch is another one: that of its ball, which the tool may
+// have left.
 // Result: the largest stretch of the spring.
 float move_spring(State& state, const EnergySettings& counted, const ProxySpring& spring,
-                  Vec3 move_m, Vec3 before_m) {
+                  Vec3 move_m, Vec3 before_m, bool is_late) {
   const Vec3 position_m = state.position_m;
+  if (is_late) {
+    const Vec3 last_m = position_m - state.move_m;
+    state.energy.stretch_m = math::length(proxy_at(spring, last_m) - last_m);
+  }
   state.has_proxy = spring.is_used;
   state.proxy_m = proxy_at(spring, position_m);
   return payable_stretch_m(state.energy, counted, spring.is_used ? spring.stiffness_N_per_m : 0.0f,
@@ -114,20 +120,22 @@ float move_spring(State& state, const EnergySettings& counted, const ProxySpring
 // Counts the energy of the guide's last tick. `off_m`: of the tool, as far as the guide acts on it.
 // Result: the share of its spring that is paid for.
 float paid_share(State& state, const EnergySettings& counted, const LocalModel& model, Vec3 off_m,
-                 Vec3 before_m) {
+                 Vec3 before_m, bool is_new) {
   Energy& energy = state.guide_energy;
   const float last_N_per_m = state.guide_N_per_m;
   const float stiffness = model.has_guide ? model.guide.stiffness_N_per_m : -1.0f;
   state.guide_N_per_m = stiffness;
   float is_m = 0;
   if (stiffness > 0.0f) {
-    is_m = energy.stretch_m = stretch_m(model.guide, off_m);
+    is_m = stretch_m(model.guide, off_m);
     if (!is_on(state.mode) || last_N_per_m < 0.0f) {  // takes hold
+      energy.stretch_m = is_m;
       energy.available_J += 0.5f * stiffness * is_m * is_m;
     } else {
       // The last tick's, from this model's line.
-      energy.stretch_m =
-          stretch_m(model.guide, guided_off_m(model.guide, state.position_m - state.move_m));
+      if (is_new)
+        energy.stretch_m =
+            stretch_m(model.guide, guided_off_m(model.guide, state.position_m - state.move_m));
       if (stiffness > last_N_per_m) {  // the same force, and less energy
         energy.payable_m *= last_N_per_m / stiffness;
         const float stored_J = 0.5f * stiffness * energy.payable_m * energy.payable_m;
@@ -202,10 +210,12 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   state.move_m = input.position_m - state.position_m;
   state.position_m = input.position_m;
   const Vec3 carried_m = model.spring.velocity_mps * settings.tick_period_s;
-  const float spring_m =
-      move_spring(state, of_contact, model.spring, state.move_m - carried_m, before_m - carried_m);
+  const bool is_new = model.made_tick != state.made_tick;
+  state.made_tick = model.made_tick;
+  const float spring_m = move_spring(state, of_contact, model.spring, state.move_m - carried_m,
+                                     before_m - carried_m, is_new && model.made_tick != input.tick);
   const Vec3 off_m = model.has_guide ? guided_off_m(model.guide, input.position_m) : Vec3{};
-  const float guide_share = paid_share(state, of_guide, model, off_m, before_m);
+  const float guide_share = paid_share(state, of_guide, model, off_m, before_m, is_new);
   uint32_t faults = seen_faults(state, settings, model, input);
   if (!counts) faults &= ~kOnlyWhileOn;
   state.faults |= faults;

@@ -69,6 +69,7 @@ struct State {
   Energy energy;                 // of the proxy's spring
   Energy guide_energy;           // of the guide's
   float guide_N_per_m = -1;      // its stiffness in the last tick; below 0: no guide
+  uint32_t made_tick = 0;        // of the last tick's model
 };
 
 /// Force of this tick: the local model evaluated at the fresh position, ramped in, limited in size
