@@ -18,6 +18,7 @@ constexpr double kReachOfLinkage_m = 0.012;
 // small for so long. It lags behind a line that is another one, and passes 0 where it turns.
 constexpr double kSlack_N = 0.05;
 constexpr uint32_t kSlackTicks = 25;
+constexpr double kAtProxy_m = 1e-7;
 
 double in_range(double share, double low, double high) { return low * std::pow(high / low, share); }
 
@@ -136,7 +137,9 @@ double gain_J(const RigRun& run) {
   for (const RigTick& tick : run) {
     slack_ticks = tick.is_guided && norm(tick.force_N) > kSlack_N ? 0 : slack_ticks + 1;
     if (!tick.is_ramped_in && most_J > -HUGE_VAL) break;
-    const bool holds_energy = tick.depth_m > 0 || (tick.is_guided && slack_ticks < kSlackTicks);
+    // At two rates the depth is that of another tick, where a model is not of this one.
+    const bool is_touching = tick.depth_m > 0 || norm(tick.proxy_m - tick.position_m) > kAtProxy_m;
+    const bool holds_energy = is_touching || (tick.is_guided && slack_ticks < kSlackTicks);
     if (!tick.is_ramped_in || holds_energy) continue;
     most_J = std::max(most_J, tick.taken_J);
     gain_J = std::max(gain_J, most_J - tick.taken_J);

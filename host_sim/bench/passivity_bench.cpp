@@ -50,9 +50,14 @@ void raise_under_load(const Rig& rig, const std::string& of, Contact contact,
              "closed form " + bench::number_text(series * aim_m) + " N");
 }
 
-// The observer with its initial reservoir, or one that never empties.
-Lines reservoir(bool is_limited) {
-  return is_limited ? Lines{} : Lines{{"energy_reservoir", "1000 J"}};
+constexpr const char* kEachTick = "1000 Hz";
+
+// The observer with its initial reservoir, or one that never empties; models a second.
+Lines settings(bool is_limited, const std::string& rate) {
+  Lines lines;
+  if (!is_limited) lines.emplace_back("energy_reservoir", "1000 J");
+  if (rate != kEachTick) lines.emplace_back("geometry_rate", rate);
+  return lines;
 }
 
 // Adds a bar that the observer meets, or one that shows that it fails without.
@@ -76,27 +81,35 @@ void run_passivity_bench(const bench::Options& options, bench::Report& report) {
     raise_under_load(Rig(seed), seed == 0 ? "upright" : "seed " + std::to_string(seed),
                      Contact::kProxy, report);
   raise_under_load(Rig(0), "upright", Contact::kPenalty, report);
+  const uint32_t hands = options.is_long ? 800 : 40;
   for (const bool is_limited : {true, false}) {
-    for (const double stiffest_N_per_m : {5000.0, 20000.0})
-      add("random hands and settings: energy given",
-          "to " + bench::number_text(stiffest_N_per_m) + " N/m",
-          random_hands("", stiffest_N_per_m, options.is_long ? 800 : 40, reservoir(is_limited)),
-          is_limited, report);
-    for (const char* const rate : {"1000 Hz", "200 Hz", "50 Hz"}) {
-      Lines lines = reservoir(is_limited);
-      if (std::string(rate) != "1000 Hz") lines.emplace_back("geometry_rate", rate);
-      add("random hands about a guide, settings change: energy given",
-          std::string("models at ") + rate,
-          guided_hands("", 5000, options.is_long ? 800 : 40, lines), is_limited, report);
-    }
-    add("worst hand found by hill climbing: energy given", "to 20000 N/m",
-        worst_hand("", 20000, Against::kPlate, options.is_long ? 40 : 8, 25, reservoir(is_limited)),
-        is_limited, report);
-    Lines late = reservoir(is_limited);
-    late.emplace_back("geometry_rate", "50 Hz");
-    add("the same about a guide: energy given", "models at 50 Hz",
-        worst_hand("", 20000, Against::kGuide, options.is_long ? 40 : 4, 100, late), is_limited,
-        report);
+    const auto row = [&](const char* what, double stiffest_N_per_m, const char* rate,
+                         auto hands_of) {
+      add(what, "to " + bench::number_text(stiffest_N_per_m) + " N/m, models at " + rate,
+          hands_of(stiffest_N_per_m, settings(is_limited, rate)), is_limited, report);
+    };
+    const auto about_solids = [&](double stiffest_N_per_m, const Lines& lines) {
+      return random_hands("", stiffest_N_per_m, hands, lines);
+    };
+    const auto about_guides = [&](double stiffest_N_per_m, const Lines& lines) {
+      return guided_hands("", stiffest_N_per_m, hands, lines);
+    };
+    const auto worst_of = [&](Against against, uint32_t starts, uint32_t tries) {
+      return [=](double stiffest_N_per_m, const Lines& lines) {
+        return worst_hand("", stiffest_N_per_m, against, starts, tries, lines);
+      };
+    };
+    const char* const random = "random hands, settings change: energy given";
+    row(random, 5000, kEachTick, about_solids);
+    row(random, 20000, kEachTick, about_solids);
+    row(random, 20000, "50 Hz", about_solids);
+    const char* const guided = "the same about a guide: energy given";
+    row(guided, 5000, kEachTick, about_guides);
+    row(guided, 5000, "200 Hz", about_guides);
+    row(guided, 5000, "50 Hz", about_guides);
+    row("worst hand found by hill climbing: energy given", 20000, kEachTick,
+        worst_of(Against::kPlate, options.is_long ? 40 : 8, 25));
+    row(guided, 20000, "50 Hz", worst_of(Against::kGuide, options.is_long ? 40 : 4, 100));
   }
 }
 
