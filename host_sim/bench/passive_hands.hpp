@@ -41,9 +41,9 @@ HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uin
                         const Lines& settings);
 
 enum class Against { kPlate, kGuide };
-/// Hands that knock on a plate, or pull across a corner of a guide, changed from random ones to the
-/// one that gains most: its aim, speed and impedance, stiffness and damping of contact or guide,
-/// and the corner. On a linkage every start has its own pose.
+/// Hands that knock on a plate, or go about a guide of four corners, changed from random ones to
+/// the one that gains most: its aim, speed and impedance, stiffness and damping of contact or
+/// guide, and the corners. On a linkage every start has its own pose.
 HandsGain worst_hand(const std::string& machine, double stiffest_N_per_m, Against against,
                      uint32_t starts, uint32_t tries, const Lines& settings);
 

@@ -46,7 +46,7 @@ void study_passivity(const std::vector<std::string>& machines, uint32_t hands,
     said("hands about a guide: energy given", guided_hands(machine, stiffest_N_per_m, hands, {}));
     said("worst hand found by hill climbing: energy given",
          worst_hand(machine, stiffest_N_per_m, Against::kPlate, starts, kTries, {}));
-    said("the same about a guide: energy given",
+    said("worst hand about a guide found by hill climbing: energy given",
          worst_hand(machine, stiffest_N_per_m, Against::kGuide, starts, kTries,
                     {{"geometry_rate", "50 Hz"}}));
     const HandsGain without =

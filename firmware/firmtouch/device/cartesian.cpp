@@ -104,6 +104,7 @@ Reading read(State& state, const Settings& settings, const Sample& sample) {
     faults |= kEncoderFault;
   }
   if (!clamp_to_workspace(state.position_m, settings)) faults |= kWorkspaceFault;
+  // Axis by axis: GCC clears a result first into which whole vectors are copied.
   const math::Vec3 at = state.position_m, v = state.velocity_mps;
   return {{at.x, at.y, at.z}, {v.x, v.y, v.z}, faults, accepted, state.started};
 }
