@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -74,8 +75,9 @@ int make_scenario(const cli::Arguments& options) {
   PlannedDevice device{scenario.device_file, scenario.linkage ? &*scenario.linkage : nullptr};
   if (device.linkage != nullptr && !device.linkage->are_walls_forced) {
     const StableWalls walls = stable_walls(scenario, environment);
-    device.stable_contact_N_per_m = walls.contact_N_per_m;
-    device.stable_guide_N_per_m = walls.guide_N_per_m;
+    // Of what is stable together contact gets three quarters.
+    device.stable_contact_N_per_m = std::min(walls.contact_N_per_m, 0.75 * walls.both_N_per_m);
+    device.stable_guide_N_per_m = std::min(walls.guide_N_per_m, 0.25 * walls.both_N_per_m);
     device.stable_texture_N = walls.texture_N;
   }
   if (device.linkage != nullptr) {

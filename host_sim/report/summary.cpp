@@ -70,11 +70,12 @@ std::string walls_text(const Summary& s) {
                   s.stable_texture_N);
   std::snprintf(
       text, sizeof text,
-      "%s in %zu ticks: stable are contact to %.0f N/m and the guide to %.0f N/m%s; lower "
-      "the stiffness or raise the damping%s",
+      "%s in %zu ticks: stable are contact to %.0f N/m and the guide to %.0f N/m, together to "
+      "%.0f N/m%s; lower the stiffness or raise the damping%s",
       s.refused_wall_ticks > 0 ? "REFUSED, motors off," : "forced",
       s.refused_wall_ticks + s.forced_wall_ticks, s.stable_contact_N_per_m, s.stable_guide_N_per_m,
-      texture, s.refused_wall_ticks > 0 ? "; or bake the device with `walls forced`" : "");
+      s.stable_both_N_per_m, texture,
+      s.refused_wall_ticks > 0 ? "; or bake the device with `walls forced`" : "");
   return text;
 }
 
@@ -136,6 +137,7 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
     const StableWalls walls = stable_walls(scenario, environment);
     summary_.stable_contact_N_per_m = walls.contact_N_per_m;
     summary_.stable_guide_N_per_m = walls.guide_N_per_m;
+    summary_.stable_both_N_per_m = walls.both_N_per_m;
     summary_.stable_texture_N = walls.texture_N;
   }
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);

@@ -47,6 +47,7 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
   if (s.stable_contact_N_per_m > 0)
     all.add("stable_contact_N_per_m", s.stable_contact_N_per_m)
         .add("stable_guide_N_per_m", s.stable_guide_N_per_m)
+        .add("stable_both_N_per_m", s.stable_both_N_per_m)
         .add("stable_texture_N", s.stable_texture_N)
         .add("refused_wall_ticks", s.refused_wall_ticks)
         .add("forced_wall_ticks", s.forced_wall_ticks);

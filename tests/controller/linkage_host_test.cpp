@@ -71,6 +71,47 @@ TEST(Arm_WallStifferThanStable_IsRefusedOrForced) {
   }
 }
 
+// Of a mass of 20 g under a spring and a damper, held over ticks of 1 ms: how far it is after 1,000
+// ticks, of its first 1 mm. In steps of the closed form for a constant force.
+double moved_share(double stiffness_N_per_m, double damping_N_s_per_m) {
+  constexpr double kMass_kg = 0.02, kPeriod_s = 1e-3;
+  double x_m = 1e-3, before_m = 1e-3, v_mps = 0, largest_m = 0;
+  for (int tick = 0; tick < 1000; ++tick) {
+    const double force_N =
+        -stiffness_N_per_m * x_m - damping_N_s_per_m * (x_m - before_m) / kPeriod_s;
+    before_m = x_m;
+    x_m += kPeriod_s * (v_mps + kPeriod_s * force_N / (2 * kMass_kg));
+    v_mps += kPeriod_s * force_N / kMass_kg;
+    if (tick >= 900) largest_m = std::max(largest_m, std::fabs(x_m));
+  }
+  return largest_m / 1e-3;
+}
+
+// Each of 10 N s/m is stable to 12,000 N/m; both, where the guide pulls into the surface, to
+// 13,333.
+TEST(Arm_GuideAndContactStableApart_AreRefusedTogether) {
+  for (const float stiffness_N_per_m : {6600.0f, 6700.0f}) {
+    const bool is_stable = stiffness_N_per_m < 6666;
+    CHECK_LE(moved_share(static_cast<double>(stiffness_N_per_m), 10), 0.1);
+    CHECK_EQ(moved_share(2.0 * static_cast<double>(stiffness_N_per_m), 20) < 1, is_stable);
+    device::LinkageLayout layout = arm_with(20);
+    layout.least_mass_kg = 0.02f;
+    ArmRide ride(layout);
+    for (uint32_t tick = 0; tick < 600; ++tick) {
+      record::TickInput input = ride.input_of(tick);
+      const params::Index rows[4] = {params::kContactStiffness, params::kContactDamping,
+                                     params::kGuideStiffness, params::kGuideDamping};
+      if (tick >= 3 && tick < 7) {
+        input.command = 1 + static_cast<uint32_t>(rows[tick - 3]);
+        input.command_value = tick % 2 == 1 ? stiffness_N_per_m : 10.0f;
+      }
+      ride.controller.tick(input, ride.output);
+      if (tick >= 100) CHECK_EQ((ride.output.state & record::kStateWallRefused) == 0, is_stable);
+    }
+    CHECK_EQ(record::may_push(ride.output), is_stable);
+  }
+}
+
 TEST(Arm_StiffWall_NeedsEnablingAnew) {
   device::LinkageLayout layout = arm_with(20);
   layout.least_mass_kg = 0.1f;

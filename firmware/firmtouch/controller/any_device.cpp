@@ -90,9 +90,9 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
 }
 
 bool AnyDevice::is_stable(const Values& values, float stiffness_N_per_m,
-                          params::Index damping) const {
+                          float damping_N_s_per_m) const {
   return stiffness_N_per_m <= device::stiffest_stable_N_per_m(linkage_.layout().least_mass_kg,
-                                                              values[damping],
+                                                              damping_N_s_per_m,
                                                               values[params::kTickPeriod]);
 }
 
@@ -103,16 +103,22 @@ uint32_t AnyDevice::refused_wall() const {
 
 uint32_t AnyDevice::wall_state(const Values& values) const {
   if (!knows_walls()) return 0;
-  if (is_stable(values, values[params::kContactStiffness], params::kContactDamping) &&
-      is_stable(values, values[params::kGuideStiffness], params::kGuideDamping))
+  const float contact_N_per_m = values[params::kContactStiffness];
+  const float guide_N_per_m = values[params::kGuideStiffness];
+  const float contact_N_s_per_m = values[params::kContactDamping];
+  const float guide_N_s_per_m = values[params::kGuideDamping];
+  if (is_stable(values, contact_N_per_m, contact_N_s_per_m) &&
+      is_stable(values, guide_N_per_m, guide_N_s_per_m) &&
+      is_stable(values, contact_N_per_m + guide_N_per_m, contact_N_s_per_m + guide_N_s_per_m))
     return 0;
   return refused_wall();
 }
 
 uint32_t AnyDevice::texture_state(const Values& values, scene::Stiffening by) const {
   if (!knows_walls() || !(by.per_m > 0.0f)) return 0;
-  if (is_stable(values, values[params::kContactStiffness] * by.share, params::kContactDamping) &&
-      is_stable(values, values[params::kForceLimit] * by.per_m, params::kDeviceDamping))
+  if (is_stable(values, values[params::kContactStiffness] * by.share,
+                values[params::kContactDamping]) &&
+      is_stable(values, values[params::kForceLimit] * by.per_m, values[params::kDeviceDamping]))
     return 0;
   return refused_wall();
 }

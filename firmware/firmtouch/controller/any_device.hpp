@@ -48,8 +48,9 @@ class AnyDevice : public DevicePolicy {
   static constexpr bool kRendersAll = false;
   const Rendered& rendered() const { return rendered_; }
 
-  /// Contact and guide against the stiffest wall that is stable with the tip's least mass and the
-  /// wall's damping; the device's own would only help. An asset without that mass passes.
+  /// Contact, guide, and both as where a guide pulls into a surface, against the stiffest wall that
+  /// is stable with the tip's least mass and the wall's damping; the device's own would only help.
+  /// guide_stiffness counts with and without a guide. An asset without that mass passes.
   static constexpr bool kKnowsWalls = true;
   uint32_t wall_state(const params::Values& values) const;
   /// The same of textures (scene/texture.hpp). Along them, up to force_limit, device_damping alone
@@ -83,7 +84,7 @@ class AnyDevice : public DevicePolicy {
              float (&torque_Nm)[device::kMaxJoints]);
   bool knows_walls() const { return linkage_.is_open() && linkage_.layout().least_mass_kg > 0.0f; }
   bool is_stable(const params::Values& values, float stiffness_N_per_m,
-                 params::Index damping) const;
+                 float damping_N_s_per_m) const;
   uint32_t refused_wall() const;
   const float* largest_Nm(const Push& push) const {
     return push.largest_Nm != nullptr ? push.largest_Nm : linkage_.layout().max_torque_Nm;
