@@ -22,7 +22,7 @@ StableWalls stable_walls(const Scenario& scenario, const Environment& environmen
   StableWalls walls;
   walls.contact_N_per_m = limit(contact_N_s_per_m) / static_cast<double>(by.share);
   walls.guide_N_per_m = limit(guide_N_s_per_m);
-  walls.both_N_per_m = limit(contact_N_s_per_m + guide_N_s_per_m);
+  walls.both_N_per_m = limit(contact_N_s_per_m + guide_N_s_per_m) / static_cast<double>(by.share);
   if (by.per_m > 0)
     walls.texture_N = limit(value(params::kDeviceDamping)) / static_cast<double>(by.per_m);
   return walls;

@@ -7,6 +7,7 @@
 #include "controller/ride.hpp"
 #include "firmtouch/controller/any_device.hpp"
 #include "firmtouch/controller/controller.hpp"
+#include "firmtouch/controller/curve_guide.hpp"
 #include "firmtouch/controller/material_mesh.hpp"
 #include "firmtouch/device/stable_wall.hpp"
 #include "host_sim/plant/device.hpp"
@@ -64,7 +65,7 @@ double growth(double share) {
   return last_m / first_m;
 }
 
-using ArmWithMaterials = Controller<Surfaces<MaterialMesh>, NoGuide, AnyDevice>;
+using ArmWithMaterials = Controller<Surfaces<MaterialMesh>, CurveGuide, AnyDevice>;
 
 void set(params::Index number, double value, record::TickInput& input) {
   input.command_value = static_cast<float>(value);
@@ -73,7 +74,8 @@ void set(params::Index number, double value, record::TickInput& input) {
 }
 
 // The walls that the record says while the operator enables.
-uint32_t wall_of(const scene::TextureLayout& texture, double force_limit_N) {
+uint32_t wall_of(const scene::TextureLayout& texture, double force_limit_N,
+                 double contact_N_per_m = 800, double guide_N_per_m = 0) {
   std::vector<tools::Section> sections = plate(texture).sections;
   mesh::View view;
   CHECK(tools::open_baked(sections, "shape", view).ok());
@@ -96,9 +98,11 @@ uint32_t wall_of(const scene::TextureLayout& texture, double force_limit_N) {
     input.encoder_counts[1] = 500000, input.encoder_counts[2] = -1000000;
     if (tick == 2) set(params::kForceLimit, force_limit_N, input);
     if (tick == 3) set(params::kDeviceDamping, kDamping_N_s_per_m, input);
+    if (tick == 4) set(params::kContactStiffness, contact_N_per_m, input);
+    if (tick == 5) set(params::kGuideStiffness, guide_N_per_m, input);
     if (tick >= 10) input.flags = record::kFlagEnable;
     controller.tick(input, output);
-    if (tick == 2 || tick == 3) CHECK((output.state & record::kStateCommandTaken) != 0);
+    if (tick >= 2 && tick <= 5) CHECK((output.state & record::kStateCommandTaken) != 0);
   }
   return output.state & (record::kStateWallRefused | record::kStateWallForced);
 }
@@ -132,4 +136,13 @@ TEST(TextureWall_StifferThanStable_IsRefused) {
   CHECK_EQ(wall_of({}, 1.01 * most_N), 0u);
   // Steep: 800 N/m and 1.73^2 are above 2,000 N/m, flat along the surface or not.
   CHECK_EQ(wall_of(grooves(2e-3 * 0.99, 8.5e-3), 0.1), uint32_t{record::kStateWallRefused});
+}
+
+// Each is stable to 1,980 N/m, both to 3,921. The texture makes contact 1,950 N/m stiff.
+TEST(TextureWall_OfAGuideThatPullsIntoIt_IsRefusedWhereBothAreTooStiff) {
+  const double share = std::pow(1 + kPi * kHigh_m / 9.3e-3, 2), smooth_N_per_m = 1950 / share;
+  const scene::TextureLayout texture = grooves(kHigh_m, 9.3e-3);
+  CHECK_EQ(wall_of(texture, 0.1, smooth_N_per_m, 1940), 0u);
+  CHECK_EQ(wall_of(texture, 0.1, smooth_N_per_m, 1975), uint32_t{record::kStateWallRefused});
+  CHECK_EQ(wall_of({}, 0.1, smooth_N_per_m, 1975), 0u);
 }

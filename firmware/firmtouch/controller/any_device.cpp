@@ -89,38 +89,28 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
   return reading;
 }
 
-bool AnyDevice::is_stable(const Values& values, float stiffness_N_per_m,
-                          float damping_N_s_per_m) const {
-  return stiffness_N_per_m <= device::stiffest_stable_N_per_m(linkage_.layout().least_mass_kg,
-                                                              damping_N_s_per_m,
-                                                              values[params::kTickPeriod]);
-}
-
-uint32_t AnyDevice::refused_wall() const {
-  return (linkage_.layout().flags & device::kFlagForcedWalls) != 0 ? record::kStateWallForced
-                                                                   : record::kStateWallRefused;
-}
-
-uint32_t AnyDevice::wall_state(const Values& values) const {
-  if (!knows_walls()) return 0;
-  const float contact_N_per_m = values[params::kContactStiffness];
+bool AnyDevice::is_stable(const Values& values, scene::Stiffening by) const {
+  const auto is_stable = [&](float stiffness_N_per_m, float damping_N_s_per_m) {
+    return stiffness_N_per_m <= device::stiffest_stable_N_per_m(linkage_.layout().least_mass_kg,
+                                                                damping_N_s_per_m,
+                                                                values[params::kTickPeriod]);
+  };
+  const float contact_N_per_m = values[params::kContactStiffness] * by.share;
   const float guide_N_per_m = values[params::kGuideStiffness];
   const float contact_N_s_per_m = values[params::kContactDamping];
   const float guide_N_s_per_m = values[params::kGuideDamping];
-  if (is_stable(values, contact_N_per_m, contact_N_s_per_m) &&
-      is_stable(values, guide_N_per_m, guide_N_s_per_m) &&
-      is_stable(values, contact_N_per_m + guide_N_per_m, contact_N_s_per_m + guide_N_s_per_m))
-    return 0;
-  return refused_wall();
+  return is_stable(contact_N_per_m, contact_N_s_per_m) &&
+         is_stable(guide_N_per_m, guide_N_s_per_m) &&
+         is_stable(contact_N_per_m + guide_N_per_m, contact_N_s_per_m + guide_N_s_per_m) &&
+         (!(by.per_m > 0.0f) ||
+          is_stable(values[params::kForceLimit] * by.per_m, values[params::kDeviceDamping]));
 }
 
-uint32_t AnyDevice::texture_state(const Values& values, scene::Stiffening by) const {
-  if (!knows_walls() || !(by.per_m > 0.0f)) return 0;
-  if (is_stable(values, values[params::kContactStiffness] * by.share,
-                values[params::kContactDamping]) &&
-      is_stable(values, values[params::kForceLimit] * by.per_m, values[params::kDeviceDamping]))
+uint32_t AnyDevice::wall_state(const Values& values, scene::Stiffening by) const {
+  if (!linkage_.is_open() || !(linkage_.layout().least_mass_kg > 0.0f) || is_stable(values, by))
     return 0;
-  return refused_wall();
+  return (linkage_.layout().flags & device::kFlagForcedWalls) != 0 ? record::kStateWallForced
+                                                                   : record::kStateWallRefused;
 }
 
 // The weight is taken up over ramp_in_s, and let go as fast as a force ramps out. The motors hold

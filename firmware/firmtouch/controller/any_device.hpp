@@ -51,11 +51,10 @@ class AnyDevice : public DevicePolicy {
   /// Contact, guide, and both as where a guide pulls into a surface, against the stiffest wall that
   /// is stable with the tip's least mass and the wall's damping; the device's own would only help.
   /// guide_stiffness counts with and without a guide. An asset without that mass passes.
+  /// Textures (scene/texture.hpp) stiffen contact. Along them, up to force_limit, device_damping
+  /// alone has to do.
   static constexpr bool kKnowsWalls = true;
-  uint32_t wall_state(const params::Values& values) const;
-  /// The same of textures (scene/texture.hpp). Along them, up to force_limit, device_damping alone
-  /// has to do.
-  uint32_t texture_state(const params::Values& values, scene::Stiffening by) const;
+  uint32_t wall_state(const params::Values& values, scene::Stiffening by) const;
 
   const device::StoredLinkage& linkage() const { return linkage_; }
   /// The whole section. Pre: linkage().is_open().
@@ -82,10 +81,7 @@ class AnyDevice : public DevicePolicy {
  private:
   void carry(const params::Values& values, const Push& push, const float* largest_Nm,
              float (&torque_Nm)[device::kMaxJoints]);
-  bool knows_walls() const { return linkage_.is_open() && linkage_.layout().least_mass_kg > 0.0f; }
-  bool is_stable(const params::Values& values, float stiffness_N_per_m,
-                 float damping_N_s_per_m) const;
-  uint32_t refused_wall() const;
+  bool is_stable(const params::Values& values, scene::Stiffening by) const;
   const float* largest_Nm(const Push& push) const {
     return push.largest_Nm != nullptr ? push.largest_Nm : linkage_.layout().max_torque_Nm;
   }

@@ -41,9 +41,8 @@ struct DevicePolicy {
   /// True: the device has a `bool is_homed() const` and a `bool has_failed() const`, valid after
   /// read(). Until it is homed no force is rendered, and may_push lets it home itself.
   static constexpr bool kHomes = false;
-  /// True: the device has a `uint32_t wall_state(const params::Values&) const`, and for surfaces
-  /// with textures a texture_state(values, scene::Stiffening): 0, or one of
-  /// record::kStateWallRefused and kStateWallForced.
+  /// True: the device has a `uint32_t wall_state(const params::Values&, scene::Stiffening) const`:
+  /// 0, or one of record::kStateWallRefused and kStateWallForced.
   static constexpr bool kKnowsWalls = false;
   /// True: a tick's flags need the counts of second encoders; index pulses.
   static constexpr bool kHasSecondEncoders = false, kHasIndexPulses = false;

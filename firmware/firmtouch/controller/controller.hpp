@@ -107,9 +107,9 @@ class Controller {
       output.state ^= record::kStateCommandRefused | record::kStateCommandTaken;
     if constexpr (Device::kKnowsWalls)
       if ((input.flags & record::kFlagEnable) != 0) {
-        uint32_t wall = device.wall_state(core_.values());
-        if constexpr (SurfaceList::kHasTextures)
-          wall |= device.texture_state(core_.values(), scene().surfaces.stiffening());
+        scene::Stiffening by;
+        if constexpr (SurfaceList::kHasTextures) by = scene().surfaces.stiffening();
+        const uint32_t wall = device.wall_state(core_.values(), by);
         output.state |= wall;
         if ((wall & record::kStateWallRefused) != 0) core_.disarm(tick);
       }
