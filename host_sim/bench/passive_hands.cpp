@@ -167,7 +167,7 @@ RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t 
 }
 
 RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
-                         Lines settings) {
+                         Lines settings, About about) {
   const Rig rig(seed, machine);
   tools::Random random(seed);
   const double reach_m = machine.empty() ? 0.02 : kReachOfLinkage_m;
@@ -177,16 +177,24 @@ RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, ui
     const double x = draw(), y = draw();
     points_m.push_back({x, y, 0.6 * draw()});
   }
-  const Vec start_m = points_m[0];
-  const auto script = random_script(random, reach_m, -0.6 * reach_m, 0.6 * reach_m, 20,
-                                    {{"guide_stiffness", 100, stiffest_N_per_m, "N/m"},
-                                     {"guide_damping", 0, 2, "N*s/m"},
-                                     {"guide_tunnel", 0, 0.002, "m"},
-                                     {"guide_side_z", -1, 1, ""},
-                                     {"guide_arc_penalty", 0, 0.5, ""}});
+  const bool is_solid = about == About::kGuideInSolid;
+  const Vec start_m = is_solid ? Vec{reach_m, 0, 1.5 * reach_m} : points_m[0];
+  std::vector<Drawn> drawn = {{"guide_stiffness", 100, stiffest_N_per_m, "N/m"},
+                              {"guide_damping", 0, 2, "N*s/m"},
+                              {"guide_tunnel", 0, 0.002, "m"},
+                              {"guide_side_z", -1, 1, ""},
+                              {"guide_arc_penalty", 0, 0.5, ""}};
+  if (is_solid)
+    drawn.insert(drawn.end(), {{"contact_stiffness", 100, stiffest_N_per_m, "N/m"},
+                               {"contact_damping", 0, 2, "N*s/m"},
+                               {"tool_radius", 0.0005, 0.006, "m"},
+                               {"friction_static", 0, 1, ""}});
+  const auto script = random_script(random, reach_m, -0.6 * reach_m, 0.6 * reach_m, 20, drawn);
   if (!machine.empty()) add_hand(random.uniform(), random.uniform(), settings);
   for (const char* key : {"guide_snap", "guide_release"}) settings.emplace_back(key, "0.5 m");
-  return rig.run_guided(points_m, start_m, script, settings);
+  const Solid solids[] = {plate(0.04), two_walls(), three_walls(), groove(rig.half_angle_rad)};
+  return rig.run_guided(points_m, start_m, script, settings,
+                        is_solid ? &solids[seed % 4] : nullptr);
 }
 
 HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
@@ -196,9 +204,9 @@ HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint
 }
 
 HandsGain guided_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
-                       const Lines& settings) {
+                       const Lines& settings, About about) {
   return of_seeds(hands, [&](uint64_t seed) {
-    return random_guided_run(machine, stiffest_N_per_m, seed, settings);
+    return random_guided_run(machine, stiffest_N_per_m, seed, settings, about);
   });
 }
 

@@ -29,12 +29,13 @@ RigRun random_run(const std::string& machine, double stiffest_N_per_m, uint64_t 
 HandsGain random_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
                        const Lines& settings);
 
+enum class About { kGuide, kGuideInSolid };
 /// The same of hands that go about a guide of random corners, which holds them all the time, while
-/// its settings change.
+/// its settings change; or about one that also pulls into a solid, whose settings change, too.
 RigRun random_guided_run(const std::string& machine, double stiffest_N_per_m, uint64_t seed,
-                         Lines settings);
+                         Lines settings, About about = About::kGuide);
 HandsGain guided_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,
-                       const Lines& settings);
+                       const Lines& settings, About about = About::kGuide);
 
 /// The same of hands with a mass (hand/hands.hpp) in turn, each grip of each.
 HandsGain massive_hands(const std::string& machine, double stiffest_N_per_m, uint32_t hands,

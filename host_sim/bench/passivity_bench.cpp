@@ -94,6 +94,9 @@ void run_passivity_bench(const bench::Options& options, bench::Report& report) {
     const auto about_guides = [&](double stiffest_N_per_m, const Lines& lines) {
       return guided_hands("", stiffest_N_per_m, hands, lines);
     };
+    const auto about_both = [&](double stiffest_N_per_m, const Lines& lines) {
+      return guided_hands("", stiffest_N_per_m, hands, lines, About::kGuideInSolid);
+    };
     const auto worst_of = [&](Against against, uint32_t starts, uint32_t tries) {
       return [=](double stiffest_N_per_m, const Lines& lines) {
         return worst_hand("", stiffest_N_per_m, against, starts, tries, lines);
@@ -107,6 +110,10 @@ void run_passivity_bench(const bench::Options& options, bench::Report& report) {
     row(guided, 5000, kEachTick, about_guides);
     row(guided, 5000, "200 Hz", about_guides);
     row(guided, 5000, "50 Hz", about_guides);
+    const char* const both = "random hands about a guide in a solid: energy given";
+    row(both, 5000, kEachTick, about_both);
+    row(both, 20000, kEachTick, about_both);
+    row(both, 5000, "50 Hz", about_both);
     row("worst hand found by hill climbing: energy given", 20000, kEachTick,
         worst_of(Against::kPlate, options.is_long ? 40 : 8, 25));
     row("worst hand about a guide found by hill climbing: energy given", 20000, "50 Hz",

@@ -127,8 +127,9 @@ RigRun Rig::run(const Solid& solid, Vec start_m, const std::vector<std::string>&
 }
 
 RigRun Rig::run_guided(const std::vector<Vec>& points_m, Vec start_m,
-                       const std::vector<std::string>& script, const Lines& settings) const {
-  const std::string bytes = guide_of(points_m, rotation_, linkage_ ? &*linkage_ : nullptr);
+                       const std::vector<std::string>& script, const Lines& settings,
+                       const Solid* solid) const {
+  const std::string bytes = guide_of(points_m, rotation_, linkage_ ? &*linkage_ : nullptr, solid);
   const Session session(folder_.write("solid.fta", bytes));
   return run(session.tick(), start_m, script, settings);
 }

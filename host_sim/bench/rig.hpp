@@ -40,9 +40,10 @@ class Rig {
   /// Positions are in the solid's frame. The run is that of a controller with `contact`.
   RigRun run(const Solid& solid, Vec start_m, const std::vector<std::string>& script,
              Contact contact = Contact::kProxy, const Lines& settings = {}) const;
-  /// The same along a guide through these points, without a solid.
+  /// The same along a guide through these points, without a solid where none is given.
   RigRun run_guided(const std::vector<Vec>& points_m, Vec start_m,
-                    const std::vector<std::string>& script, const Lines& settings = {}) const;
+                    const std::vector<std::string>& script, const Lines& settings = {},
+                    const Solid* solid = nullptr) const;
   /// The same by a controller of the caller's.
   RigRun run(const Tick& controller, Vec start_m, const std::vector<std::string>& script,
              const Lines& settings = {}) const;

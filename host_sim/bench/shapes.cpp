@@ -53,6 +53,17 @@ std::string bytes_of(std::vector<tools::Section> sections, const tools::LinkageD
   return {bytes.begin(), bytes.end()};
 }
 
+std::vector<tools::Section> sections_of(const Solid& solid, const Rotation& rotation) {
+  const tools::Surface surface = surface_of(solid, rotation);
+  tools::MeshReport report;
+  std::vector<tools::Section> sections = tools::bake_mesh(surface, "solid", {}, report);
+  mesh::View mesh;
+  if (!tools::open_baked(sections, "solid", mesh).ok())
+    throw Refused("a shape of the bench: " + report.problem);
+  sections.push_back(tools::mesh_probes(mesh, "solid"));
+  return sections;
+}
+
 }  // namespace
 
 Rotation::Rotation(Vec axis, double angle_rad) {
@@ -150,18 +161,11 @@ tools::Surface surface_of(const Solid& solid, const Rotation& rotation) {
 
 std::string asset_of(const Solid& solid, const Rotation& rotation,
                      const tools::LinkageDevice* linkage) {
-  const tools::Surface surface = surface_of(solid, rotation);
-  tools::MeshReport report;
-  std::vector<tools::Section> sections = tools::bake_mesh(surface, "solid", {}, report);
-  mesh::View mesh;
-  if (!tools::open_baked(sections, "solid", mesh).ok())
-    throw Refused("a shape of the bench: " + report.problem);
-  sections.push_back(tools::mesh_probes(mesh, "solid"));
-  return bytes_of(std::move(sections), linkage);
+  return bytes_of(sections_of(solid, rotation), linkage);
 }
 
 std::string guide_of(const std::vector<Vec>& points_m, const Rotation& rotation,
-                     const tools::LinkageDevice* linkage) {
+                     const tools::LinkageDevice* linkage, const Solid* solid) {
   tools::CurvePoints points;
   for (const Vec& at_m : points_m) points.samples_m.push_back(tools::to_vec3(rotation.turn(at_m)));
   tools::CurveReport report;
@@ -170,6 +174,9 @@ std::string guide_of(const std::vector<Vec>& points_m, const Rotation& rotation,
   if (!tools::open_baked(sections, "guide", curve).ok())
     throw Refused("a guide of the bench: " + report.problem);
   sections.push_back(tools::curve_probes(curve, "guide"));
+  if (solid != nullptr)
+    for (tools::Section& section : sections_of(*solid, rotation))
+      sections.push_back(std::move(section));
   return bytes_of(std::move(sections), linkage);
 }
 

@@ -47,8 +47,8 @@ tools::Surface surface_of(const Solid& solid, const Rotation& rotation);
 std::string asset_of(const Solid& solid, const Rotation& rotation,
                      const tools::LinkageDevice* linkage = nullptr);
 
-/// The same of a guide through these points.
+/// The same of a guide through these points, and of a solid where one is given.
 std::string guide_of(const std::vector<Vec>& points_m, const Rotation& rotation,
-                     const tools::LinkageDevice* linkage = nullptr);
+                     const tools::LinkageDevice* linkage = nullptr, const Solid* solid = nullptr);
 
 }  // namespace firmtouch::host_sim

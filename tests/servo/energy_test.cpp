@@ -88,10 +88,9 @@ TEST(Energy_WhenEnabled_TheReservoirIsFull) {
       (void)servo::step(state, settings(reservoir_J), wall(1.0f), input);
       ++input.tick;
     }
-    CHECK_EQ(state.energy.available_J, reservoir_J);
-    CHECK_EQ(state.guide_energy.available_J, reservoir_J);
+    CHECK_EQ(state.reservoir_J, reservoir_J);
     (void)servo::step(state, settings(2.0f), wall(1.0f), input);
-    CHECK_EQ(state.energy.available_J, reservoir_J);
+    CHECK_EQ(state.reservoir_J, reservoir_J);
   }
 }
 
@@ -191,7 +190,7 @@ TEST(Energy_GuideBeyondTheForceLimit_IsNotCounted) {
     input.enable = true;
     const servo::StepOutput output = servo::step(state, settings(kReservoir_J), model, input);
     CHECK_EQ(output.faults, 0u);
-    CHECK_GE(state.energy.available_J, 0.9f * kReservoir_J);
+    CHECK_GE(state.energy.saved_J, -0.1f * kReservoir_J);  // owes nothing
   }
 }
 
@@ -217,7 +216,7 @@ TEST(Energy_DriveBeyondTheSlewLimit_IsNotCounted) {
     const servo::StepOutput output = servo::step(state, slow, model, input);
     CHECK_EQ(output.faults, 0u);
     if (i < 40) continue;  // the force rises by its slew limit
-    CHECK_GE(state.energy.available_J, 0.99f * (kStored_J + kReservoir_J));
+    CHECK_GE(state.energy.saved_J + state.reservoir_J, 0.99f * (kStored_J + kReservoir_J));
     CHECK_GE(output.force_N.z, 0.99f * kStiffness_N_per_m * kDepth_m);
   }
 }
@@ -256,7 +255,7 @@ TEST(Energy_SlideWithAnEmptyReservoir_KeepsItsForce) {
     model.spring.anchor_m = {x_m, 0, 0};
     model.made_tick = input.tick;
     const servo::StepOutput output = servo::step(state, settings(kReservoir_J), model, input);
-    if (input.tick == 10) state.energy.available_J = 0;
+    if (input.tick == 10) state.energy.saved_J = state.reservoir_J = 0;
     if (input.tick > 1) CHECK_GE(output.force_N.z, 0.999f * kStiffness_N_per_m * kDepth_m);
   }
 }
@@ -264,19 +263,49 @@ TEST(Energy_SlideWithAnEmptyReservoir_KeepsItsForce) {
 // Something else moves the proxy on, as a turn of the tool does, and the hand gives way.
 TEST(Energy_StretchThatGrowsWhileTheHandGivesWay_GivesNoMoreThanTheReservoir) {
   servo::Energy energy;
-  float stretch_m = 0, force_N = 0;
+  float left_J = kReservoir_J, stretch_m = 0, force_N = 0;
   double given_J = 0;
   for (int i = 0; i < 200; ++i) {
     const float move_m = i < 50 ? 0.0f : 0.00005f;
     given_J += static_cast<double>(force_N) * static_cast<double>(move_m);
     stretch_m += 0.00001f;
     const float payable_m = servo::payable_stretch_m(
-        energy, {kReservoir_J, 0.0f}, kStiffness_N_per_m, stretch_m, {0, 0, move_m}, {});
+        energy, left_J, {kReservoir_J, 0.0f}, kStiffness_N_per_m, stretch_m, {0, 0, move_m}, {});
     force_N = kStiffness_N_per_m * payable_m;
     energy.force_N = {0, 0, force_N};
     CHECK_EQ(energy.overdrawn_ticks, 0u);
   }
   CHECK_LE(given_J, static_cast<double>(kReservoir_J) + 0.0002);
+}
+
+// A hand in the corner of a guide and a wall got a reservoir from each.
+TEST(Energy_TwoSprings_GiveOneReservoir) {
+  constexpr servo::EnergySettings kSettings{kReservoir_J, 0};
+  constexpr float kForce_N = 1, kMove_m = 0.00001f;
+  servo::Energy spring[2];
+  float left_J = kReservoir_J;
+  const auto gives_J = [&](int which, float move_m, int ticks) {
+    float given_J = 0;
+    for (int i = 0; i < ticks; ++i) {
+      const float payable_m = servo::payable_stretch_m(spring[which], left_J, kSettings, 1000,
+                                                       kForce_N / 1000, {0, 0, move_m}, {});
+      const float force_N = 1000 * payable_m;
+      spring[which].force_N = {0, 0, force_N};
+      given_J += force_N * move_m;
+    }
+    return given_J;
+  };
+  (void)(gives_J(0, 0, 2) + gives_J(1, 0, 2));
+  spring[0].saved_J = spring[1].saved_J = 0;  // stretched by nobody's work
+  const float first_J = gives_J(0, kMove_m, 200);
+  CHECK(first_J >= 0.98f * kReservoir_J && first_J <= 1.02f * kReservoir_J);
+  CHECK_LE(gives_J(1, kMove_m, 200), 0.02f * kReservoir_J);
+  for (int i = 0; i < 100; ++i) {  // a damper takes it back
+    spring[0].force_N = {0, 0, kForce_N};
+    (void)servo::payable_stretch_m(spring[0], left_J, kSettings, 1000, 0, {0, 0, -kMove_m}, {});
+  }
+  CHECK_GE(left_J, 0.98f * kReservoir_J);
+  CHECK_GE(gives_J(1, kMove_m, 200), 0.98f * kReservoir_J);
 }
 
 // A square of the motion credited 19 uW that no friction took: a hand got it from a guide for as
@@ -285,15 +314,15 @@ TEST(Energy_FrictionOfMotion_Fills_EncoderStepsToAndFroDoNot) {
   constexpr float kFriction_N_per_m = 500;
   const auto filled_J = [](const float(&moves_m)[4]) {
     servo::Energy energy;
-    energy.available_J = 0;
-    float before_m = moves_m[3];
+    energy.saved_J = 0;
+    float left_J = 0, before_m = moves_m[3];
     for (int i = 0; i < 40; ++i) {
       const float move_m = moves_m[i % 4];
-      (void)servo::payable_stretch_m(energy, {1.0f, kFriction_N_per_m}, kStiffness_N_per_m, 0,
-                                     {0, 0, move_m}, {0, 0, before_m});
+      (void)servo::payable_stretch_m(energy, left_J, {1.0f, kFriction_N_per_m}, kStiffness_N_per_m,
+                                     0, {0, 0, move_m}, {0, 0, before_m});
       before_m = move_m;
     }
-    return energy.available_J;
+    return left_J;
   };
   constexpr float kCount_m = 1e-5f, kTaken_J = kFriction_N_per_m * kCount_m * kCount_m;
   CHECK_EQ(filled_J({kCount_m, -kCount_m, kCount_m, -kCount_m}), 0.0f);
@@ -307,15 +336,16 @@ TEST(Energy_EverySpecial_LeavesAStretchThatIsFiniteAndFillsNothing) {
   for (const uint32_t a : kSpecialBits)
     for (const uint32_t b : kSpecialBits) {
       servo::Energy energy;
-      (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m,
+      float left_J = kReservoir_J;
+      (void)servo::payable_stretch_m(energy, left_J, {kReservoir_J, 500.0f}, kStiffness_N_per_m,
                                      math::float_of(a), {math::float_of(b), 0, 0}, {});
       energy.force_N = {math::float_of(b), 0, math::float_of(a)};
-      (void)servo::payable_stretch_m(energy, {kReservoir_J, 500.0f}, kStiffness_N_per_m, 0.001f,
-                                     {math::float_of(a), 0, 0}, {math::float_of(b), 0, 0});
-      const float stretch_m = servo::payable_stretch_m(energy, {kReservoir_J, 500.0f},
+      (void)servo::payable_stretch_m(energy, left_J, {kReservoir_J, 500.0f}, kStiffness_N_per_m,
+                                     0.001f, {math::float_of(a), 0, 0}, {math::float_of(b), 0, 0});
+      const float stretch_m = servo::payable_stretch_m(energy, left_J, {kReservoir_J, 500.0f},
                                                        kStiffness_N_per_m, 0.001f, {}, {});
       CHECK(stretch_m >= 0.0f && stretch_m <= 0.001f);
       const float most_J = 0.5f * kStiffness_N_per_m * 1e-6f + kReservoir_J;
-      CHECK(energy.available_J <= most_J * 1.000001f);
+      CHECK(energy.saved_J + left_J <= most_J * 1.000001f);
     }
 }

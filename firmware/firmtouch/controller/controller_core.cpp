@@ -68,10 +68,10 @@ void put(float (&to)[record::kAxes], math::Vec3 from) {
 // noinline: in flash once.
 [[gnu::noinline]] void correct(servo::Energy& energy, const Rendered& last) {
   energy.force_N = energy.force_N * last.share;
-  float available_J = energy.available_J - math::dot(energy.force_N, last.off_m);
+  float saved_J = energy.saved_J - math::dot(energy.force_N, last.off_m);
   if (energy.stretch_m > 0.0f || energy.is_unpaid)  // in contact, or left unpaid
-    available_J -= servo::kHiddenWork_per_J * last.hidden_J2;
-  energy.available_J = available_J;
+    saved_J -= servo::kHiddenWork_per_J * last.hidden_J2;
+  energy.saved_J = saved_J;
 }
 
 }  // namespace

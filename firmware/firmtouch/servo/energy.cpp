@@ -4,17 +4,20 @@
 
 namespace firmtouch::servo {
 
-float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
-                        float stretch_m, math::Vec3 move_m, math::Vec3 before_m) {
+float payable_stretch_m(Energy& energy, float& left_J, const EnergySettings& settings,
+                        float stiffness_N_per_m, float stretch_m, math::Vec3 move_m,
+                        math::Vec3 before_m) {
   const float lost_J = math::larger(settings.friction_N_per_m * math::dot(move_m, before_m), 0.0f);
   const float given_J = math::dot(energy.force_N, move_m) - lost_J;
   const float stored_J = 0.5f * stiffness_N_per_m * stretch_m * stretch_m;
-  float available_J = energy.available_J - given_J;
+  float available_J = energy.saved_J + left_J - given_J;
   const float most_J = stored_J + settings.reservoir_J;
   if (!(available_J <= most_J)) available_J = most_J;
   const float entered_m = stretch_m - energy.stretch_m;
   const float grown_m = energy.payable_m + entered_m;
-  energy.available_J = available_J;
+  const float paid_J = math::larger(available_J, 0.0f);
+  left_J = math::smaller(math::larger(available_J - stored_J, left_J), paid_J);
+  energy.saved_J = available_J - left_J;
   energy.stretch_m = stretch_m;
   energy.payable_m = stretch_m;
   const bool is_giving = given_J > 0.0f, is_out = !(stretch_m > 0.0f) && is_giving;
@@ -34,10 +37,9 @@ float payable_stretch_m(Energy& energy, const EnergySettings& settings, float st
   const float next_J = (stiffness_N_per_m * stretch_m - friction_N) * left_m;
   const bool is_paid = available_J >= stored_J && available_J >= next_J;
   if (is_paid || !(stiffness_N_per_m > 0.0f)) return stretch_m;
-  if (!(available_J > 0.0f)) available_J = 0;
-  float payable_m = math::square_root(2.0f * available_J / stiffness_N_per_m);
+  float payable_m = math::square_root(2.0f * paid_J / stiffness_N_per_m);
   if (left_m > 0.0f) {
-    const float next_m = (available_J / left_m + friction_N) / stiffness_N_per_m;
+    const float next_m = (paid_J / left_m + friction_N) / stiffness_N_per_m;
     if (next_m < payable_m) payable_m = next_m;
   } else if (!is_giving && payable_m < grown_m) {
     payable_m = grown_m;

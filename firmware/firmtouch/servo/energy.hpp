@@ -20,10 +20,10 @@ struct EnergySettings {
   float friction_N_per_m = 0;  // the device's own viscous friction over the tick's period
 };
 
-/// Passivity observer of a spring, of the proxy or of a guide: the energy that it may still give to
-/// the hand. What the hand put into the spring, plus a reservoir, less what it gave back.
+/// Passivity observer of a spring, of the proxy or of a guide. It may still give to the hand what
+/// the hand put into it, less what it gave back, and what is left of the reservoir of all springs.
 struct Energy {
-  float available_J = FLT_MAX;   // limited to a full reservoir; anew where the motors come on
+  float saved_J = FLT_MAX;       // limited to what the spring stores; below 0: owed
   float stretch_m = 0;           // of the spring in the last tick
   float entered_m = 0;           // growth of the stretch in the last tick
   float payable_m = 0;           // result of the last tick
@@ -37,7 +37,8 @@ struct Energy {
 /// the last tick, less what a moving object displaced the proxy by; its work is not the surface's.
 /// `before_m`: that of the tick before. The device's friction takes the product of both: a square
 /// would count an encoder's steps to and fro as motion.
-/// Energy that the spring dissipates fills the reservoir up and is not saved beyond it.
+/// `left_J`: of the reservoir. A spring gives from there what it has not saved; energy that it
+/// dissipates fills it up, and is not saved beyond it.
 /// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
 ///         empty. From then on
 ///           no more than holds the available energy;
@@ -48,7 +49,8 @@ struct Energy {
 /// Bounds: constant; re-entrant for different states.
 /// Source: Hannaford and Ryu 2002 (observer); Lee and Huang 2010 (the spring is shortened to its
 ///         energy: no velocity is used, so that an encoder's steps make no force).
-float payable_stretch_m(Energy& energy, const EnergySettings& settings, float stiffness_N_per_m,
-                        float stretch_m, math::Vec3 move_m, math::Vec3 before_m);
+float payable_stretch_m(Energy& energy, float& left_J, const EnergySettings& settings,
+                        float stiffness_N_per_m, float stretch_m, math::Vec3 move_m,
+                        math::Vec3 before_m);
 
 }  // namespace firmtouch::servo

@@ -87,7 +87,8 @@ void change_mode(State& state, const Settings& settings, bool enable) {
     state.mode = Mode::kRampIn;
     state.ramp_in_ticks = 0;
     state.part_N = {};
-    state.energy.available_J = state.guide_energy.available_J = FLT_MAX;
+    state.energy.saved_J = state.guide_energy.saved_J = FLT_MAX;
+    state.reservoir_J = settings.energy.reservoir_J;
   } else if (state.mode > Mode::kFault) {  // no such mode: memory was corrupted
     state.mode = Mode::kFault;
   }
@@ -113,7 +114,8 @@ float move_spring(State& state, const EnergySettings& counted, const ProxySpring
   }
   state.has_proxy = spring.is_used;
   state.proxy_m = proxy_at(spring, position_m);
-  return payable_stretch_m(state.energy, counted, spring.is_used ? spring.stiffness_N_per_m : 0.0f,
+  return payable_stretch_m(state.energy, state.reservoir_J, counted,
+                           spring.is_used ? spring.stiffness_N_per_m : 0.0f,
                            math::length(state.proxy_m - position_m), move_m, before_m);
 }
 
@@ -130,7 +132,7 @@ float paid_share(State& state, const EnergySettings& counted, const LocalModel& 
     is_m = stretch_m(model.guide, off_m);
     if (!is_on(state.mode) || last_N_per_m < 0.0f) {  // takes hold
       energy.stretch_m = is_m;
-      energy.available_J += 0.5f * stiffness * is_m * is_m;
+      energy.saved_J += 0.5f * stiffness * is_m * is_m;
     } else {
       // The last tick's, from this model's line.
       if (is_new)
@@ -139,11 +141,12 @@ float paid_share(State& state, const EnergySettings& counted, const LocalModel& 
       if (stiffness > last_N_per_m) {  // the same force, and less energy
         energy.payable_m *= last_N_per_m / stiffness;
         const float stored_J = 0.5f * stiffness * energy.payable_m * energy.payable_m;
-        energy.available_J = math::smaller(energy.available_J, stored_J);
+        energy.saved_J = math::smaller(energy.saved_J, stored_J - state.reservoir_J);
       }
     }
   }
-  const float paid_m = payable_stretch_m(energy, counted, stiffness, is_m, state.move_m, before_m);
+  const float paid_m = payable_stretch_m(energy, state.reservoir_J, counted, stiffness, is_m,
+                                         state.move_m, before_m);
   return paid_m < is_m ? paid_m / is_m : 1.0f;
 }
 
@@ -201,11 +204,9 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   // In the ticks that enable, the motors count as on already: a fault that stands keeps them off.
   const bool counts = is_on(state.mode) || (input.enable && state.mode == Mode::kOff);
   state.uncertain_ticks = model.is_uncertain && counts ? state.uncertain_ticks + 1 : 0;
-  // The device's friction pays for one of two springs: for that of contact while it is stretched.
-  const bool pays_for_guide = model.has_guide && !(state.energy.stretch_m > 0.0f);
-  const EnergySettings without{settings.energy.reservoir_J, 0};
-  const EnergySettings& of_contact = pays_for_guide ? without : settings.energy;
-  const EnergySettings& of_guide = pays_for_guide ? settings.energy : without;
+  // The device's friction counts once, and fills the reservoir of both: with contact, if there is.
+  EnergySettings of_contact = settings.energy, of_guide = settings.energy;
+  (model.spring.is_used ? of_guide : of_contact).friction_N_per_m = 0;
   const Vec3 before_m = state.move_m;
   state.move_m = input.position_m - state.position_m;
   state.position_m = input.position_m;

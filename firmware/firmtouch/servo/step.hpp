@@ -66,7 +66,8 @@ struct State {
   math::Vec3 proxy_m;
   bool has_proxy = false;
   uint32_t uncertain_ticks = 0;  // of the models while enabled, without a break
-  Energy energy;                 // of the proxy's spring
+  float reservoir_J = 0;         // what both springs have left; full where the motors come on
+  Energy energy;                 // of the proxy's
   Energy guide_energy;           // of the guide's
   float guide_N_per_m = -1;      // its stiffness in the last tick; below 0: no guide
   uint32_t made_tick = 0;        // of the last tick's model
