@@ -138,6 +138,7 @@ Summariser::Summariser(const Scenario& scenario, const Environment& environment,
     summary_.stable_contact_N_per_m = walls.contact_N_per_m;
     summary_.stable_guide_N_per_m = walls.guide_N_per_m;
     summary_.stable_both_N_per_m = walls.both_N_per_m;
+    summary_.enabled_contact_N_per_m = walls.contact_beside_guide_N_per_m;
     summary_.stable_texture_N = walls.texture_N;
   }
   summary_.tool_radius_m = parameter_value(scenario, params::kToolRadius);
@@ -375,7 +376,7 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
         s.peak_walls.stable_N_per_m, s.peak_walls.passive_N_per_m);
     for (const double angle_rad : s.peak_joints_rad) line(" %.1f", angle_rad * kDegrees);
     line(" deg; at the worst pose to %.0f and %.0f; contact is enabled to %.0f\n",
-         s.worst_walls.stable_N_per_m, s.worst_walls.passive_N_per_m, s.stable_contact_N_per_m);
+         s.worst_walls.stable_N_per_m, s.worst_walls.passive_N_per_m, s.enabled_contact_N_per_m);
   }
   text += windings_text(trace);
   line("  load           %s\n", load_text(s).c_str());

@@ -45,8 +45,9 @@ struct Summary {
   double homed_s = -1;  // when it was homed; -1: it was not, or need not be
   // Ticks that enabled beside a wall that is stiffer than stable, and what would have been stable.
   size_t refused_wall_ticks = 0, forced_wall_ticks = 0;
-  // Of a linkage; both: their sum.
+  // Of a linkage; both: their sum; enabled: contact beside the guide as it was set.
   double stable_contact_N_per_m = 0, stable_guide_N_per_m = 0, stable_both_N_per_m = 0;
+  double enabled_contact_N_per_m = 0;
   double stable_texture_N = 0;  // the force up to which its textures are; 0: it has none
   // Of contact, with a linkage's own damping: at its worst pose, and where it had the largest
   // force; no joints: it had none.

@@ -1,5 +1,7 @@
 #include "host_sim/trace/stable_walls.hpp"
 
+#include <algorithm>
+
 #include "device/inertia.hpp"
 #include "firmtouch/device/stable_wall.hpp"
 #include "firmtouch/params/table.hpp"
@@ -23,6 +25,11 @@ StableWalls stable_walls(const Scenario& scenario, const Environment& environmen
   walls.contact_N_per_m = limit(contact_N_s_per_m) / static_cast<double>(by.share);
   walls.guide_N_per_m = limit(guide_N_s_per_m);
   walls.both_N_per_m = limit(contact_N_s_per_m + guide_N_s_per_m) / static_cast<double>(by.share);
+  walls.contact_beside_guide_N_per_m =
+      std::clamp(limit(contact_N_s_per_m + guide_N_s_per_m) -
+                     static_cast<double>(value(params::kGuideStiffness)),
+                 0.0, limit(contact_N_s_per_m)) /
+      static_cast<double>(by.share);
   if (by.per_m > 0)
     walls.texture_N = limit(value(params::kDeviceDamping)) / static_cast<double>(by.per_m);
   return walls;

@@ -7,8 +7,9 @@ namespace firmtouch::host_sim {
 /// Up to where the firmware enables walls on a linkage (controller/any_device.hpp).
 struct StableWalls {
   double contact_N_per_m = 0, guide_N_per_m = 0;
-  double both_N_per_m = 0;  // their sum: where the guide pulls into a surface
-  double texture_N = 0;     // the force up to which its textures are stable; 0: it has none
+  double both_N_per_m = 0;                  // their sum: where the guide pulls into a surface
+  double contact_beside_guide_N_per_m = 0;  // with the scenario's guide_stiffness
+  double texture_N = 0;  // the force up to which its textures are stable; 0: it has none
 };
 
 /// With the scenario's settings.

@@ -90,7 +90,7 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
 }
 
 bool AnyDevice::is_stable(const Values& values, scene::Stiffening by) const {
-  const auto is_stable = [&](float stiffness_N_per_m, float damping_N_s_per_m) {
+  const auto holds = [&](float stiffness_N_per_m, float damping_N_s_per_m) {
     return stiffness_N_per_m <= device::stiffest_stable_N_per_m(linkage_.layout().least_mass_kg,
                                                                 damping_N_s_per_m,
                                                                 values[params::kTickPeriod]);
@@ -99,11 +99,10 @@ bool AnyDevice::is_stable(const Values& values, scene::Stiffening by) const {
   const float guide_N_per_m = values[params::kGuideStiffness];
   const float contact_N_s_per_m = values[params::kContactDamping];
   const float guide_N_s_per_m = values[params::kGuideDamping];
-  return is_stable(contact_N_per_m, contact_N_s_per_m) &&
-         is_stable(guide_N_per_m, guide_N_s_per_m) &&
-         is_stable(contact_N_per_m + guide_N_per_m, contact_N_s_per_m + guide_N_s_per_m) &&
+  return holds(contact_N_per_m, contact_N_s_per_m) && holds(guide_N_per_m, guide_N_s_per_m) &&
+         holds(contact_N_per_m + guide_N_per_m, contact_N_s_per_m + guide_N_s_per_m) &&
          (!(by.per_m > 0.0f) ||
-          is_stable(values[params::kForceLimit] * by.per_m, values[params::kDeviceDamping]));
+          holds(values[params::kForceLimit] * by.per_m, values[params::kDeviceDamping]));
 }
 
 uint32_t AnyDevice::wall_state(const Values& values, scene::Stiffening by) const {

@@ -88,7 +88,6 @@ void change_mode(State& state, const Settings& settings, bool enable) {
     state.ramp_in_ticks = 0;
     state.part_N = {};
     state.energy.saved_J = state.guide_energy.saved_J = FLT_MAX;
-    state.reservoir_J = settings.energy.reservoir_J;
   } else if (state.mode > Mode::kFault) {  // no such mode: memory was corrupted
     state.mode = Mode::kFault;
   }
