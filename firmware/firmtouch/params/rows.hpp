@@ -33,7 +33,7 @@ struct SafetyRows {
       {kTickWork, "tick_work", "1", kFixedTickWork + 1.0f, 65536.0f, 1000.0f, When::kMayFall,
        "work of a tick, 535 of it fixed"},
       {kEnergyReservoir, "energy_reservoir_J", "J", 0.0f, kMaxReservoir_J, 0.0006f, When::kMayFall,
-       "energy that contact, or a guide, may give"},
+       "energy that contact and guide may give"},
       {kDeviceDamping, "device_damping_N_s_per_m", "N s/m", 0.0f, 50.0f, 0.5f, When::kMayFall,
        "damping of the device itself, or less"},
   };
