@@ -20,8 +20,8 @@ constexpr double kMaxHoming_s = 2.001;
 constexpr double kMaxRise = 1 + 1e-5;  // float rounding
 constexpr double kMaxTip_mps = 2;
 // Work done on a hand in FailureRig::kTicksAfter, by FailureMode.
-constexpr double kStated_J[kFailureModes] = {0.03, 0.01, 0.3,  0.5,   0.03,
-                                             0.1,  0.5,  0.01, 0.002, 0.01};
+constexpr double kStated_J[kFailureModes] = {0.03, 0.01, 0.5,  0.7,   0.03,
+                                             0.1,  0.7,  0.01, 0.002, 0.01};
 
 // Of all runs of a failure.
 struct Tally {
@@ -68,7 +68,8 @@ constexpr HomingCase kInHoming[] = {HomingCase::kDead,      HomingCase::kReverse
                                     HomingCase::kMotorDead, HomingCase::kMotorReversed};
 constexpr uint32_t kHomings = sizeof kInHoming / sizeof kInHoming[0], kSeeds = 8;
 
-// What fails before a homing, and at every `every`th tick of it.
+// What fails before a homing, and at every `every`th tick of it; below kSeeds, the seeds share the
+// ticks.
 struct InHoming {
   HomingTally before, later;
 };
@@ -85,7 +86,8 @@ void fail_in_homing(const std::string& machine, uint32_t seed, uint32_t every, s
   const double end_s = simulate_homing(device, HomingCase::kGood, seed).seconds;
   for (uint32_t i = 0; i < kHomings; ++i) {
     put(simulate_homing(device, kInHoming[i], seed), all[i].before);
-    for (uint32_t tick = 37 * seed % every; tick * 1e-3 < end_s; tick += every)
+    const uint32_t step = std::max(every, kSeeds);
+    for (uint32_t tick = 37 * seed % step; tick * 1e-3 < end_s; tick += step)
       put(simulate_homing(device, kInHoming[i], seed, tick * 1e-3), all[i].later);
   }
 }

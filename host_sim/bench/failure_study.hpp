@@ -8,7 +8,7 @@
 
 namespace firmtouch::host_sim {
 
-/// Every failure at every `every`th tick of six touches of each machine, and an index that fails at
+/// Every failure at every `every`th tick of six touches of each machine, and what fails at
 /// every `every`th tick of homing: ticks until it is a fault, from there until no motor pushes,
 /// the largest torques, and what was done to the hand. On all cores. `only`: this failure alone,
 /// and none in homing; empty: all.
