@@ -191,8 +191,9 @@ static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
 
 /// Takes a foot below rivals.limit2_m2() as the nearest, or as a rival. `ab_m`: the longest edge.
 /// Result: whether it is the nearest. The caller then calls rivals.let_go().
-[[gnu::noinline]] inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle,
-                                        uint32_t slot, Best& best, Rivals& rivals) {
+[[gnu::always_inline]] static inline bool put_foot(const Foot& foot, math::Vec3 ab_m,
+                                                   uint32_t triangle, uint32_t slot, Best& best,
+                                                   Rivals& rivals) {
   ++rivals.owed;
   if (!(foot.distance2_m2 < best.distance2_m2)) {
     // The nearest feature of both is no rival.
@@ -213,6 +214,11 @@ static inline bool is_same(const math::Vec3& a, const math::Vec3& b) {
   best.slot = slot;
   best.feature = foot.feature;
   return true;
+}
+// The same for size. On a host a Vec3 that a call takes would wait for its stores.
+[[gnu::noinline]] inline bool take_foot(const Foot& foot, math::Vec3 ab_m, uint32_t triangle,
+                                        uint32_t slot, Best& best, Rivals& rivals) {
+  return put_foot(foot, ab_m, triangle, slot, best, rivals);
 }
 
 /// Puts into sought.best the first nearest triangle of the leaf `child`, in slot `slot`, if it is

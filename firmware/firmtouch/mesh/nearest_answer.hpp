@@ -195,11 +195,12 @@ template <class Finder, class Bound>
 }
 
 // Where float32 does not promise `within_m`. By value: a reference would keep `found` of every
-// query in memory.
+// query in memory. Inlined: two floats that a call takes in one register wait for their stores.
 template <class Finder, class Bound>
-[[gnu::noinline]] Found refined_fast(const View& mesh, Finder finder, const Bound& bound,
-                                     uint32_t budget, float threshold_m, float within_m,
-                                     float loss_m, Search& search, Found found) {
+[[gnu::always_inline]] inline Found refined_fast(const View& mesh, Finder finder,
+                                                 const Bound& bound, uint32_t budget,
+                                                 float threshold_m, float within_m, float loss_m,
+                                                 Search& search, Found found) {
   if (!is_decided(threshold_m, loss_m, found) && !measure_again(mesh, within_m, search, found))
     search_again(mesh, finder, bound, budget, search, found);
   return found;

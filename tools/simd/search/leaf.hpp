@@ -158,8 +158,8 @@ static inline bool take_rivals(const Feet& feet, const CornerArrays& corners, ui
                            lane_of(feet.offset_m.z, lane)},
                           distance2_m2,
                           static_cast<Feature>(lane_of(features, lane))};
-    is_nearer |= mesh::take_foot(foot, corners.corner(1, lane) - corners.corner(0, lane),
-                                 first + lane, slot, best, rivals);
+    is_nearer |= mesh::put_foot(foot, corners.corner(1, lane) - corners.corner(0, lane),
+                                first + lane, slot, best, rivals);
     rivals.let_go();
   }
   return is_nearer;
