@@ -3,6 +3,9 @@
 
 #include <new>
 
+// What controllers compile for size, as GCC does [[gnu::cold]] functions, hosts compile for speed.
+#define cold hot
+
 #include "firmtouch/mesh/crossing_takers.hpp"
 #include "firmtouch/mesh/direction.hpp"
 #include "firmtouch/mesh/nearest_answer.hpp"
