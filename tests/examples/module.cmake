@@ -12,6 +12,9 @@ function(firmtouch_example name)
       add_test(NAME examples.${name}.${FIRMTOUCH_BOARD}
                COMMAND ${PROJECT_SOURCE_DIR}/hal/emulate ${FIRMTOUCH_BOARD} $<TARGET_FILE:example_${name}>)
     endif()
+    if(NOT is_emulated)  # up to 102 KB of RAM, which not every chip has
+      set_target_properties(example_${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+    endif()
   else()
     add_executable(example_${name} ${source})
     target_link_libraries(example_${name} PRIVATE ${example_LINKS} firmtouch_example_pictures)
