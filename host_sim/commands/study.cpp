@@ -46,9 +46,9 @@ in the joints' ranges, while stiffness, damping, radius, friction and tunnel cha
 as many runs of a search for the worst. Counted is the hand's work, less what the linkage
 gives back. The same without the energy's limit shows that the bar can fail.
 failures: encoders that stand, are lost, swapped, reversed or slip, motors that are
-dead, reversed or hot, a broken link, each joint, at every Nth tick of six touches at 1
-kHz; before a homing and at every Nth tick of it. With `home stops` and index pulses they
-fail behind a homing, and absent pulses are one more.
+dead, reversed or hot, a broken link, each joint, at every Nth tick of six touches of
+walls of 600 to 1,200 N/m at 1 kHz; before a homing and at every Nth tick of it. With
+`home stops` and index pulses they fail behind a homing, and absent pulses are one more.
 seen: a fault was latched within 150 ticks; ticks to it, from there to motors at rest,
 the largest torque over the joint's, speed of the tip and work done on the hand: the
 worst of all runs.)",
