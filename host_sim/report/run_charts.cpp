@@ -16,17 +16,19 @@ constexpr const char* kGreen = "var(--good)";
 
 using Output = record::TickOutput;
 
-double wide(float value) { return static_cast<double>(value); }
-double length(const float (&v)[3]) { return norm({wide(v[0]), wide(v[1]), wide(v[2])}); }
+double in_double(float value) { return static_cast<double>(value); }
+double length(const float (&v)[3]) {
+  return norm({in_double(v[0]), in_double(v[1]), in_double(v[2])});
+}
 
 // A value of the controller's output, in `scale` of its unit.
 std::function<double(const RunTick&)> output(float Output::*field, double scale) {
-  return [=](const RunTick& tick) { return wide(tick.record.output.*field) * scale; };
+  return [=](const RunTick& tick) { return in_double(tick.record.output.*field) * scale; };
 }
 
 double signed_lower_mm(const RunTick& tick) {
   const Output& out = tick.record.output;
-  return std::copysign(wide(out.distance_lower_m), wide(out.distance_m)) * 1e3;
+  return std::copysign(in_double(out.distance_lower_m), in_double(out.distance_m)) * 1e3;
 }
 
 std::vector<RunChart> surface_charts() {
@@ -48,7 +50,7 @@ std::vector<RunChart> surface_charts() {
 std::function<double(const RunTick&)> condition(const tools::LinkageDevice& device) {
   return [tip = TipFollower(device)](const RunTick& tick) mutable {
     const float(&at_m)[3] = tick.record.output.position_m;
-    const JointMotion* at = tip.at({wide(at_m[0]), wide(at_m[1]), wide(at_m[2])});
+    const JointMotion* at = tip.at({in_double(at_m[0]), in_double(at_m[1]), in_double(at_m[2])});
     return at != nullptr ? reciprocal_condition(tip.device(), *at) : 0.0;
   };
 }
@@ -57,8 +59,8 @@ RunChart condition_chart(const tools::LinkageDevice& device) {
   return {"Reciprocal condition of the linkage",
           "",
           "1: it moves alike in all directions; 0: a singularity. Below " +
-              fixed(wide(device.limits.full_from), 2) + " its force fades, from " +
-              fixed(wide(device.limits.gone_at), 2) + " down there is none.",
+              fixed(in_double(device.limits.full_from), 2) + " its force fades, from " +
+              fixed(in_double(device.limits.gone_at), 2) + " down there is none.",
           {{"at the tool", kGreen, condition(device), false, 1.2}}};
 }
 

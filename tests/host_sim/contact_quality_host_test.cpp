@@ -1,9 +1,11 @@
 // How a contact feels, against closed forms.
 #include <cmath>
 #include <initializer_list>
+#include <string>
 
 #include "harness/test.hpp"
 #include "host_sim/report/contact_quality.hpp"
+#include "host_sim/report/summary.hpp"
 
 namespace host_sim = firmtouch::host_sim;
 namespace record = firmtouch::record;
@@ -66,6 +68,16 @@ record::TickOutput guided(float x_N, float z_N) {
   out.force_N[0] = x_N;
   out.force_N[2] = z_N;
   return out;
+}
+
+// Which figures are too much, and beside which limit.
+std::string quality_of(host_sim::Summary summary) {
+  summary.contact_ticks = summary.ticks = 1000;
+  summary.tool_radius_m = 3e-3;
+  summary.force_limit_N = kLimit_N;
+  const std::string text = host_sim::text_of(summary, {});
+  const size_t at = text.find("  feel ");
+  return at == std::string::npos ? "" : text.substr(at, text.find('\n', at) - at);
 }
 
 }  // namespace
@@ -185,4 +197,28 @@ TEST(Turn_WithoutProxyOrGuide_IsOfTheWholeForce) {
   record::TickOutput free = guided(0.5f, 0.25f);
   free.state &= ~uint32_t{record::kStateContact};
   CHECK(!(host_sim::norm(host_sim::contact_force_N(free, 1000)) > 0));
+}
+
+TEST(Quality_OfARun_NamesWhatIsTooMuch) {
+  const auto says = [](const host_sim::Summary& summary, const char* what) {
+    const std::string line = quality_of(summary);
+    const size_t bad = line.find("BAD");
+    return line.find(what) != std::string::npos && line.find("BAD", bad + 1) == std::string::npos;
+  };
+  host_sim::Summary at_limit, deep, chatters, turns, calm;
+  at_limit.limit_ticks = 11;
+  deep.worst_penetration_m = 3.3e-3;
+  chatters.chatter_s = 0.6;
+  turns.worst_turn_rad = 21 / 57.29577951308232;
+  CHECK(says(at_limit, "11 ticks at the force limit (BAD: more than 1 % of all);"));
+  CHECK(says(deep, "deepest 1.10 tool radii (BAD: more than 1);"));
+  CHECK(says(chatters, "above 50 Hz (BAD: for 0.60 s more than 0.20 N);"));
+  CHECK(says(turns, "turn of contact 21.0 degrees a tick (BAD: more than 20)"));
+  calm.limit_ticks = 10;
+  calm.worst_penetration_m = 2.9e-3;
+  calm.chatter_s = 0.4;
+  calm.worst_turn_rad = 19 / 57.29577951308232;
+  CHECK(!quality_of(calm).empty() && quality_of(calm).find("BAD") == std::string::npos);
+  deep.has_proxy = true;  // which has a way out at any depth
+  CHECK(quality_of(deep).find("BAD") == std::string::npos);
 }
