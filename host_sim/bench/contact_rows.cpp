@@ -57,7 +57,7 @@ void add_two_walls(const Rig& rig, Contact contact, std::vector<ContactRow>& row
   const RigRun run = rig.run(
       two_walls(), {-0.012 - r, 0, 0.012 + r},
       {Rig::hold_s(0.3), rig.to({-r + aim_m, 0, r - aim_m}, 0.05), Rig::hold_s(3)}, contact);
-  const Score score = score_of(scored(run), rig.score_settings());
+  const Score score = score_of(scored(run, rig.stiffness_N_per_m), rig.score_settings());
   size_t pressed = 0;
   while (pressed + 1 < run.size() && norm(run[pressed].force_N) <= 0.5) ++pressed;
   double turn = 0;

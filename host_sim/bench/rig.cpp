@@ -179,12 +179,12 @@ Vec mean_force_N(const RigRun& run, size_t ticks) {
   return sum_N * (1.0 / static_cast<double>(std::min(ticks, run.size())));
 }
 
-std::vector<ScoredTick> scored(const RigRun& run) {
+std::vector<ScoredTick> scored(const RigRun& run, double stiffness_N_per_m) {
   std::vector<ScoredTick> ticks;
   for (const RigTick& tick : run) {
     const double turn = ticks.empty() ? 0 : turn_rad(ticks.back().contact_N, tick.force_N);
-    ticks.push_back(
-        {tick.force_N, tick.force_N, turn, tick.motor_N, tick.device_m, tick.depth_m, tick.is_on});
+    ticks.push_back({tick.force_N, tick.force_N, turn, tick.device_m, tick.depth_m,
+                     stiffness_N_per_m, tick.is_on});
   }
   return ticks;
 }

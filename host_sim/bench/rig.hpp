@@ -84,6 +84,7 @@ std::string with_unit(double value, const char* unit);
 
 /// Force, averaged over the last `ticks`.
 Vec mean_force_N(const RigRun& run, size_t ticks);
-std::vector<ScoredTick> scored(const RigRun& run);
+/// Of walls of such a stiffness.
+std::vector<ScoredTick> scored(const RigRun& run, double stiffness_N_per_m);
 
 }  // namespace firmtouch::host_sim

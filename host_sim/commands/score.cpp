@@ -38,7 +38,8 @@ ScoredRun from_log(const std::string& path, const cli::Arguments& options) {
     throw Refused(path + ": it has not every tick; record with --decimate 1 to score it");
   ScoredRun run;
   run.settings = {1 / logged(log, params::kTickPeriod), logged(log, params::kForceLimit),
-                  logged(log, params::kToolRadius), logged(log, params::kContactStiffness)};
+                  logged(log, params::kToolRadius), logged(log, params::kContactStiffness),
+                  logged(log, params::kContactDamping)};
   use(options, run.settings);
   Environment environment;
   std::unique_ptr<Session> session;
@@ -50,7 +51,8 @@ ScoredRun from_log(const std::string& path, const cli::Arguments& options) {
   }
   ContactTurn turn(&environment);
   for (const record::TickRecord& record : log.records)
-    run.ticks.push_back(scored(record.output, wide(record.output.position_m), run.settings, turn));
+    run.ticks.push_back(
+        scored(record.output, wide(record.output.position_m), run.settings, environment, turn));
   return run;
 }
 
@@ -115,11 +117,10 @@ ScoredRun from_csv(const std::string& path, const cli::Arguments& options) {
     record::TickOutput out{};
     out.state = static_cast<uint32_t>(csv.value("state"));
     csv.read("force_N", out.force_N);
-    csv.read("motor_N", out.motor_N);
     csv.read("position_m", out.position_m);
     csv.read("proxy_m", out.proxy_m);
     out.penetration_m = static_cast<float>(csv.value("penetration_m"));
-    run.ticks.push_back(scored(out, csv.vector("device_m"), run.settings, turn));
+    run.ticks.push_back(scored(out, csv.vector("device_m"), run.settings, environment, turn));
   }
   if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
   return run;
@@ -150,12 +151,13 @@ cli::Command score_command() {
   return {
       {"score", "RUN.ftl|RUN.csv [options]", 1, 1, score_run},
       "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
-      R"(Energy given, while no guide holds the tool: the largest gain of the motors' work plus
-what the contact's spring holds. Contact on a guide is the proxy's spring alone. From a
-log it is that of the encoders' positions, from a CSV of the device's. A log has its
-settings; for a CSV they are the parameters' initial values, or those given here. A part
-of another stiffness needs --stiffness, as does a tool of N spheres: 1/N of the wall's
-where one touches. A part that moves gives energy of its own.)",
+      R"(Energy given, while no guide holds the tool: the largest gain of the work that the force
+does at the tool, plus what the contact's spring holds. Contact on a guide is the proxy's
+spring alone. From a log it is that of the encoders' positions, from a CSV of the device's.
+A log has its settings; for a CSV they are the parameters' initial values, or those given
+here. The stiffness of triangles' materials is the asset's, where it is given. Another
+object's needs --stiffness, as does a tool of N spheres: 1/N of the wall's where one
+touches. A part that moves gives energy of its own.)",
       {{"--page", "FILE.html", "the figures and charts of force, turn, energy and depth"},
        {"--asset", "FILE.fta", "of the run: turns of contact that its textures state do not count"},
        {"--force-limit", "N", "force_limit of the run"},

@@ -68,11 +68,12 @@ std::vector<ScoreRow> score_of_run(const Sweep& sweep, uint64_t run, uint32_t& f
   Simulation simulation(scenario, session.tick(), environment);
   const ScoreSettings settings = {scenario.rate_Hz, parameter_value(scenario, params::kForceLimit),
                                   parameter_value(scenario, params::kToolRadius),
-                                  parameter_value(scenario, params::kContactStiffness)};
+                                  parameter_value(scenario, params::kContactStiffness),
+                                  parameter_value(scenario, params::kContactDamping)};
   std::vector<ScoredTick> ticks;
   ContactTurn turn(&environment);
   for (RunTick tick; simulation.next(tick);) {
-    ticks.push_back(scored(tick.record.output, tick.device_m, settings, turn));
+    ticks.push_back(scored(tick.record.output, tick.device_m, settings, environment, turn));
     faults |= tick.record.output.faults;
   }
   return rows_of(score_of(ticks, settings), settings);

@@ -46,9 +46,13 @@ Environment environment_of(const ToolController& controller, Vec scene_m) {
   Environment environment(meshes_of(controller, scene_m), controller.spline_surface(),
                           std::move(guide), scene_m, tools::to_point(controller.asset_origin_m()));
   std::vector<std::string> materials;
-  for (const scene::MaterialLayout& material : controller.materials().table())
+  std::vector<double> stiffness_N_per_m;
+  for (const scene::MaterialLayout& material : controller.materials().table()) {
     materials.emplace_back(material.name);
+    stiffness_N_per_m.push_back(static_cast<double>(material.stiffness_N_per_m));
+  }
   environment.name_materials(std::move(materials));
+  environment.set_stiffness(std::move(stiffness_N_per_m));
   const auto copy_of = [](const auto& span) { return std::vector(span.begin(), span.end()); };
   const scene::StoredMaterials& stored = controller.materials();
   environment.set_textures(copy_of(stored.textures()), copy_of(stored.reliefs()),

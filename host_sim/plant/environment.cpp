@@ -81,6 +81,11 @@ scene::Stiffening Environment::stiffening() const {
                               {reliefs_.data(), static_cast<uint32_t>(reliefs_.size())});
 }
 
+double Environment::spring_N_per_m(uint32_t material, double contact_N_per_m) const {
+  if (material == 0 || material > stiffness_N_per_m_.size()) return contact_N_per_m;
+  return contact_N_per_m / (1 + contact_N_per_m / stiffness_N_per_m_[material - 1]);
+}
+
 Vec Environment::texture_slope(uint32_t material, Vec tool_m) const {
   if (material == 0) return {};
   const PlacedMesh& placed = meshes_.front();

@@ -47,6 +47,12 @@ class Environment {
   /// Names of the materials of the mesh's triangles; empty: they have none.
   const std::vector<std::string>& materials() const { return materials_; }
   void name_materials(std::vector<std::string> names) { materials_ = std::move(names); }
+  /// Stiffness of each material, FLT_MAX: rigid.
+  void set_stiffness(std::vector<double> stiffness_N_per_m) {
+    stiffness_N_per_m_ = std::move(stiffness_N_per_m);
+  }
+  /// Of the contact's spring against a material, from 1; 0: none. The two are in series.
+  double spring_N_per_m(uint32_t material, double contact_N_per_m) const;
   /// One a material, or none.
   void set_textures(std::vector<scene::TextureLayout> textures,
                     std::vector<scene::ReliefLayout> reliefs = {},
@@ -70,6 +76,7 @@ class Environment {
  private:
   std::vector<PlacedMesh> meshes_;
   std::vector<std::string> materials_;
+  std::vector<double> stiffness_N_per_m_;  // of the materials
   std::vector<scene::TextureLayout> textures_;
   std::vector<scene::ReliefLayout> reliefs_;
   std::vector<uint8_t> samples_;  // of the maps

@@ -24,12 +24,16 @@ Vec normal_of(Vec contact_N, Vec slope) {
 
 }  // namespace
 
+uint32_t touched_material(const record::TickOutput& out, const Environment* environment) {
+  const bool has_material = environment != nullptr && !environment->materials().empty() &&
+                            (out.state & record::kStateContact) != 0;
+  return has_material ? out.state >> record::kStateMaterialShift & 255u : 0;
+}
+
 double ContactTurn::add_rad(const record::TickOutput& out, Vec contact_N) {
   double turn_rad = angle_rad(last_N_, contact_N);
   const Vec at_m = wide(out.position_m);
-  const bool has_material = environment_ != nullptr && !environment_->materials().empty() &&
-                            (out.state & record::kStateContact) != 0;
-  const uint32_t material = has_material ? out.state >> record::kStateMaterialShift & 255u : 0;
+  const uint32_t material = touched_material(out, environment_);
   if (material != material_) {
     before_ = material == 0 ? 0 : material_;
     material_ = material;
@@ -50,9 +54,9 @@ double ContactTurn::add_rad(const record::TickOutput& out, Vec contact_N) {
 }
 
 Vec contact_force_N(const record::TickOutput& out, double stiffness_N_per_m) {
-  if ((out.state & record::kStateOnGuide) == 0 || (out.state & record::kStateProxy) == 0)
-    return wide(out.force_N);
+  if ((out.state & record::kStateProxy) == 0) return wide(out.force_N);
   if ((out.state & record::kStateContact) == 0) return {};
+  if ((out.state & record::kStateOnGuide) == 0) return wide(out.force_N);
   return (wide(out.proxy_m) - wide(out.position_m)) * stiffness_N_per_m;
 }
 
@@ -91,12 +95,14 @@ void ContactQuality::add(Vec force_N, Vec contact_N, double turn_rad, bool motor
   const double chatter_N = std::sqrt(mean_square_);
   chatter_N_ = std::max(chatter_N_, chatter_N);
   if (chatter_N > kChatterShare * limit_N_) chatter_s_ += 1 / rate_Hz_;
-  const Vec guide_N = force_N - contact_N;
   if (was_on_ && norm(contact_N) > min_N_ && norm(last_contact_N_) > min_N_)
     turn_rad_ = std::max(turn_rad_, turn_rad);
-  if (was_on_) guide_step_N_ = std::max(guide_step_N_, norm(guide_N - last_guide_N_));
+  if (was_on_) {
+    const Vec step_N = force_N - last_N_, contact_step_N = contact_N - last_contact_N_;
+    guide_step_N_ = std::max(guide_step_N_, std::min(norm(step_N), norm(step_N - contact_step_N)));
+  }
+  last_N_ = force_N;
   last_contact_N_ = contact_N;
-  last_guide_N_ = guide_N;
   was_on_ = true;
 }
 

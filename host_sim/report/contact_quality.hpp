@@ -4,9 +4,13 @@
 
 namespace firmtouch::host_sim {
 
+/// The material that the tool touches, from 1; 0: none.
+uint32_t touched_material(const record::TickOutput& out, const Environment* environment);
+
 /// The part of a tick's force that is contact. On a guide only a proxy separates the two: by its
-/// spring, without the damper. A spring and a guide that pull against each other leave a force of
-/// any direction, which says nothing of either.
+/// spring, without the damper and without the limits of force and torque. A spring and a guide that
+/// pull against each other leave a force of any direction, which says nothing of either. Of a guide
+/// that has let go the force falls by the slew limit: that is no contact.
 Vec contact_force_N(const record::TickOutput& out, double stiffness_N_per_m);
 
 /// Turns of contact from tick to tick that no texture states. Along a unit normal n a texture of
@@ -40,8 +44,8 @@ class ContactQuality {
   double chatter_s() const { return chatter_s_; }
   /// Greatest `turn_rad` between two successive ticks.
   double turn_rad() const { return turn_rad_; }
-  /// Greatest change in a tick of what is not contact: of a guide that takes hold, or whose nearest
-  /// stretch is another.
+  /// Greatest change in a tick of what is not contact, and by no more than the force changes: of a
+  /// guide that takes hold, or whose nearest stretch is another.
   double guide_step_N() const { return guide_step_N_; }
 
   static constexpr double kChatterShare = 0.025;
@@ -55,7 +59,7 @@ class ContactQuality {
   double rate_Hz_, min_N_, limit_N_;
   double b0_, a1_, a2_;
   Section sections_[3];
-  Vec last_contact_N_, last_guide_N_;
+  Vec last_N_, last_contact_N_;
   bool was_on_ = false;
   double mean_square_ = 0;
   double chatter_N_ = 0, chatter_s_ = 0, turn_rad_ = 0, guide_step_N_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmtouch/servo/step.hpp"
 #include "host_sim/report/buzz.hpp"
 #include "host_sim/trace/run.hpp"
 
@@ -34,24 +35,34 @@ double worst_buzz_N(const std::vector<ScoredTick>& ticks, double rate_Hz) {
 }  // namespace
 
 ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings,
-                  ContactTurn& turn) {
-  const Vec contact_N = contact_force_N(output, settings.stiffness_N_per_m);
+                  const Environment& environment, ContactTurn& turn) {
+  const double spring_N_per_m = environment.spring_N_per_m(touched_material(output, &environment),
+                                                           settings.stiffness_N_per_m);
+  const Vec contact_N = contact_force_N(output, spring_N_per_m);
+  const bool is_on = motors_are_on(output);
+  const uint32_t mode = output.state & record::kStateServoMask;
   return {wide(output.force_N),
           contact_N,
           turn.add_rad(output, contact_N),
-          wide(output.motor_N),
           device_m,
           static_cast<double>(output.penetration_m),
-          motors_are_on(output),
+          spring_N_per_m,
+          is_on,
+          is_on && mode != static_cast<uint32_t>(servo::Mode::kOn),
           (output.state & record::kStateOnGuide) != 0,
           (output.state & record::kStateProxy) != 0};
 }
 
-double stored_J(const ScoreSettings& settings, double depth_m) {
-  const double stretch_m =
-      std::min(depth_m, settings.force_limit_N / std::max(settings.stiffness_N_per_m, 1e-9));
-  const double force_N = settings.stiffness_N_per_m * stretch_m;
+double stored_J(double stiffness_N_per_m, double depth_m, double limit_N) {
+  const double stretch_m = std::min(depth_m, limit_N / std::max(stiffness_N_per_m, 1e-9));
+  const double force_N = stiffness_N_per_m * stretch_m;
   return force_N * stretch_m / 2 + force_N * (depth_m - stretch_m);
+}
+
+double stored_J(const ScoreSettings& settings, const ScoredTick& before, const ScoredTick& now) {
+  const double speed_mps = norm(now.device_m - before.device_m) * settings.rate_Hz;
+  const double rendered_N = norm(now.contact_N) + 2 * settings.damping_N_s_per_m * speed_mps;
+  return stored_J(now.stiffness_N_per_m, now.depth_m, std::min(settings.force_limit_N, rendered_N));
 }
 
 double turn_rad(Vec a_N, Vec b_N) {
@@ -70,9 +81,10 @@ Score score_of(const std::vector<ScoredTick>& ticks, const ScoreSettings& settin
   double work_J = 0, least_J = 0;
   for (size_t i = 0; i < ticks.size(); ++i) {
     const ScoredTick& tick = ticks[i];
-    if (i > 0) work_J += dot(ticks[i - 1].motor_N, tick.device_m - ticks[i - 1].device_m);
-    const double energy_J = work_J + stored_J(settings, tick.depth_m);
-    const bool is_begun_anew = i == 0 || tick.is_guided || !tick.is_on;
+    const ScoredTick& before = i > 0 ? ticks[i - 1] : tick;
+    work_J += dot(before.force_N, tick.device_m - before.device_m);
+    const double energy_J = work_J + stored_J(settings, before, tick);
+    const bool is_begun_anew = i == 0 || tick.is_guided || !tick.is_on || tick.is_ramping;
     least_J = is_begun_anew ? energy_J : std::min(least_J, energy_J);
     score.given_J = std::max(score.given_J, energy_J - least_J);
     if (!tick.is_on) continue;

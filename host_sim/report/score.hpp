@@ -10,23 +10,26 @@ namespace firmtouch::host_sim {
 /// What a score needs of a tick.
 struct ScoredTick {
   Vec force_N;
-  Vec contact_N;        // the part of it that is contact (contact_quality.hpp)
-  double turn_rad = 0;  // of that since the tick before, without what a texture states
-  Vec motor_N;
-  Vec device_m;        // true, or as the encoders have it
-  double depth_m = 0;  // hand to proxy, or penetration
-  bool is_on = false;  // the motors
+  Vec contact_N;                 // the part of it that is contact (contact_quality.hpp)
+  double turn_rad = 0;           // of that since the tick before, without what a texture states
+  Vec device_m;                  // true, or as the encoders have it
+  double depth_m = 0;            // hand to proxy, or penetration
+  double stiffness_N_per_m = 0;  // of the spring that is pressed
+  bool is_on = false;            // the motors
+  bool is_ramping = false;       // the force is not whole yet
   bool is_guided = false;
   bool has_proxy = false;
 };
 
 struct ScoreSettings {
   double rate_Hz = 1000, force_limit_N = 8, tool_radius_m = 0.003, stiffness_N_per_m = 800;
+  double damping_N_s_per_m = 1;
 };
 
-/// `device_m`: the device's position, as the encoders have it or the true one. `turn`: of this run.
+/// `device_m`: the device's position, as the encoders have it or the true one. `turn`: of this run
+/// in the environment.
 ScoredTick scored(const record::TickOutput& output, Vec device_m, const ScoreSettings& settings,
-                  ContactTurn& turn);
+                  const Environment& environment, ContactTurn& turn);
 
 // Bars of any run.
 constexpr double kMaxTurn_deg = 20;      // of the force in a tick
@@ -40,7 +43,7 @@ struct Score {
   // Of contact between two ticks with more than 0.2 N each; as let_go, where the spring changed by
   // more than the tool's own motion stretches it.
   double turn_rad = 0;
-  // Largest gain, without a guide, of: work of the motors, plus what the contact's spring holds.
+  // Largest gain, without a guide, of: work of the force, plus what the contact's spring holds.
   double given_J = 0;
   double deepest_radii = 0;  // without a proxy, which has a way out at any depth
   size_t limit_ticks = 0;    // at the force limit
@@ -49,7 +52,10 @@ struct Score {
 };
 
 /// Energy of a spring that is stretched by `depth_m`, with a force that is limited.
-double stored_J(const ScoreSettings& settings, double depth_m);
+double stored_J(double stiffness_N_per_m, double depth_m, double limit_N);
+/// The same of a tick. The limit is that of the settings, or of the motors: more than the contact's
+/// damper takes from the spring, they do not render.
+double stored_J(const ScoreSettings& settings, const ScoredTick& before, const ScoredTick& now);
 
 /// Angle between two forces; 0 where one is too small to have a direction.
 double turn_rad(Vec a_N, Vec b_N);

@@ -92,9 +92,10 @@ std::string score_page(const std::string& title, const std::vector<ScoreRow>& ro
   page += drawn("Turn of contact in a tick", "degrees", count, seconds,
                 [&](size_t i) { return i == 0 ? 0 : kDegrees * turn_rad(ticks[i - 1], ticks[i]); });
   double work_J = 0;
-  page += drawn("Work of the motors and energy stored", "mJ", count, seconds, [&](size_t i) {
-    if (i > 0) work_J += dot(ticks[i - 1].motor_N, ticks[i].device_m - ticks[i - 1].device_m);
-    return 1e3 * (work_J + stored_J(settings, ticks[i].depth_m));
+  page += drawn("Work of the force and energy stored", "mJ", count, seconds, [&](size_t i) {
+    const ScoredTick& before = ticks[i > 0 ? i - 1 : 0];
+    work_J += dot(before.force_N, ticks[i].device_m - before.device_m);
+    return 1e3 * (work_J + stored_J(settings, before, ticks[i]));
   });
   page += drawn("Hand to proxy", "mm", count, seconds,
                 [&](size_t i) { return ticks[i].depth_m * 1e3; });

@@ -190,7 +190,8 @@ void Summariser::add(const RunTick& tick) {
   summary_.forced_wall_ticks += (out.state & record::kStateWallForced) != 0 ? 1u : 0u;
   const bool is_on = motors_are_on(out);
   const Vec force_N = wide(out.force_N);
-  const Vec contact_N = contact_force_N(out, stiffness_N_per_m_);
+  const Vec contact_N = contact_force_N(
+      out, environment_.spring_N_per_m(touched_material(out, &environment_), stiffness_N_per_m_));
   if (is_on && norm(contact_N) > peak_N_) peak_N_ = norm(contact_N), peak_m_ = wide(out.position_m);
   quality_.add(force_N, contact_N, turn_.add_rad(out, contact_N), is_on);
   if (is_on && norm(force_N) > kAtLimit * summary_.force_limit_N) ++summary_.limit_ticks;

@@ -135,7 +135,25 @@ TEST(Turn_GuideCancelsContact_IsTheContactsOwn) {
   turned.proxy_m[0] = 0.002f;
   meter.take(turned);
   CHECK_LT(std::fabs(meter.turn_rad() - kPi / 4), 1e-9);
-  CHECK_LT(std::fabs(meter.guide_step_N() - 2), 1e-6);
+  CHECK_LT(std::fabs(meter.guide_step_N() - std::sqrt(0.5)), 1e-9);  // the force does not step
+}
+
+// Where the motors limit the force of both, the spring alone says 36 N.
+TEST(Guide_BesideASpringBeyondTheMotors_StepsByNoMoreThanTheForce) {
+  Meter meter;
+  for (int i = 0; i < 10; ++i) {
+    record::TickOutput out = guided(i % 2 == 0 ? 0.3f : 0.4f, 2);
+    out.proxy_m[2] = i % 3 == 0 ? 0.036f : 0.001f;
+    meter.take(out);
+  }
+  CHECK_LT(std::fabs(meter.guide_step_N() - 0.1), 1e-6);
+}
+
+// What is left of the force of a guide that has let go, and falls by the slew limit, is no contact.
+TEST(Turn_WithoutContact_IsOfNoForce) {
+  record::TickOutput out = guided(2, 0);
+  out.state &= ~uint32_t{record::kStateContact | record::kStateOnGuide};
+  CHECK(!(host_sim::norm(host_sim::contact_force_N(out, 1000)) > 0));
 }
 
 // Steep waves under a tool that goes on by half of one: the force turns by 70 degrees, as n + slope

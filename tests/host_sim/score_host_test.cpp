@@ -29,7 +29,7 @@ std::vector<Vec> sines(double frequency_Hz, size_t count) {
 // Pressed 2 mm deep on a spring along z, at rest.
 std::vector<ScoredTick> pressed(size_t count) {
   return std::vector<ScoredTick>(count,
-                                 {{0, 0, 2}, {0, 0, 2}, 0, {0, 0, 2}, {0, 0, -0.002}, 0.002, true});
+                                 {{0, 0, 2}, {0, 0, 2}, 0, {0, 0, -0.002}, 0.002, 1000, true});
 }
 
 void add_turns(std::vector<ScoredTick>& ticks) {
@@ -66,23 +66,45 @@ TEST(Score_Energy_IsWorkPlusWhatTheSpringHolds) {
   std::vector<ScoredTick> ticks;
   const auto add = [&](double depth_m, double force_N) {
     const Vec force{0, 0, force_N};
-    ticks.push_back({force, force, 0, force, {0, 0, -depth_m}, depth_m, true});
+    ticks.push_back({force, force, 0, {0, 0, -depth_m}, depth_m, 1000, true});
   };
   // The mean force of a step does the work of a spring in it.
   for (int i = 0; i < 20; ++i) add(i * 1e-4, (i + 0.5) * 1e-1);
   for (int i = 20; i >= 0; --i) add(i * 1e-4, (i - 0.5) * 1e-1);
   CHECK_LT(score_of(ticks, kSettings).given_J, 1e-9);
-  for (size_t i = 20; i < ticks.size(); ++i) ticks[i].motor_N.z *= 1.5;
+  for (size_t i = 20; i < ticks.size(); ++i) ticks[i].force_N.z *= 1.5;
   CHECK_LT(std::fabs(score_of(ticks, kSettings).given_J - 1e-3), 1e-5);
   for (ScoredTick& tick : ticks) tick.is_guided = true;  // a guide's spring holds some, too
   CHECK(!(score_of(ticks, kSettings).given_J > 0));
-  for (ScoredTick& tick : ticks) tick.is_guided = tick.is_on = false;
+  for (ScoredTick& tick : ticks) tick.is_guided = false, tick.is_ramping = true;
+  CHECK(!(score_of(ticks, kSettings).given_J > 0));
+  for (ScoredTick& tick : ticks) tick.is_ramping = tick.is_on = false;
   CHECK(!(score_of(ticks, kSettings).given_J > 0));
 }
 
+// Motors that render 2 N at most: pressed 5 mm deep, a spring of 1,000 N/m holds what 2 N do. One
+// that is twice as soft, as the material's is, holds more on the way to them.
+TEST(Score_SpringAtTheMotorsLimit_HoldsWhatTheyRender) {
+  for (const double stiffness_N_per_m : {1000.0, 500.0}) {
+    std::vector<ScoredTick> ticks;
+    const auto add = [&](double depth_m, double off_m) {
+      const double wanted_N = stiffness_N_per_m * (depth_m + off_m);
+      const Vec force{0, 0, std::fmin(std::fmax(wanted_N, 0.0), 2.0)};
+      ticks.push_back({force, force, 0, {0, 0, -depth_m}, depth_m, stiffness_N_per_m, true});
+    };
+    for (int i = 0; i < 500; ++i) add(i * 1e-5, 5e-6);
+    for (int i = 500; i >= 0; --i) add(i * 1e-5, -5e-6);
+    ScoreSettings settings = kSettings;
+    settings.damping_N_s_per_m = 0;  // what the speed of 0.01 m/s would add
+    CHECK_LT(score_of(ticks, settings).given_J, 2e-5);
+    for (ScoredTick& tick : ticks) tick.stiffness_N_per_m = 4 * stiffness_N_per_m;
+    CHECK_GE(score_of(ticks, settings).given_J, 1e-3);  // of another spring
+  }
+}
+
 TEST(Score_SpringAtTheForceLimit_HoldsWhatTheLimitDoes) {
-  CHECK_LT(std::fabs(stored_J(kSettings, 0.008) - 0.032), 1e-12);
-  CHECK_LT(std::fabs(stored_J(kSettings, 0.018) - (0.032 + 0.08)), 1e-12);
+  CHECK_LT(std::fabs(host_sim::stored_J(1000, 0.008, 8) - 0.032), 1e-12);
+  CHECK_LT(std::fabs(host_sim::stored_J(1000, 0.018, 8) - (0.032 + 0.08)), 1e-12);
 }
 
 TEST(Score_ContactThatTurnsAndLetsGo_IsCounted) {
