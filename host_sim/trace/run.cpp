@@ -209,8 +209,10 @@ Vec scene_origin_m(const Scenario& scenario) {
 }
 
 void complete(Scenario& scenario) {
+  // First: until it is taken, ticks that come sooner than the initial period are counted as early.
   if (!is_set(scenario, params::kTickPeriod))
-    scenario.settings.push_back({params::kTickPeriod, 1 / scenario.rate_Hz});
+    scenario.settings.insert(scenario.settings.begin(),
+                             {params::kTickPeriod, 1 / scenario.rate_Hz});
   // A model is one period old when it is first used, and two when the next one replaces it.
   const uint32_t every = model_ticks(scenario);
   if (every > 1 && !is_set(scenario, params::kModelAge))

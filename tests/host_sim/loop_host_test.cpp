@@ -249,6 +249,24 @@ TEST(Scenario_ClearsFaults_WhileDisabled) {
   CHECK(message.find("only while disabled") != std::string::npos);
 }
 
+// The controller takes a setting a tick. Ticks that come sooner than its period count as early.
+TEST(Run_OfAnyRateAndSettings_BeginsWithoutAFault) {
+  const char* const settings[] = {"contact_stiffness 700 N/m", "contact_damping 1.5 N*s/m",
+                                  "guide_stiffness 300 N/m",   "guide_damping 1.5 N*s/m",
+                                  "tool_radius 2 mm",          "force_limit 5 N",
+                                  "friction_static 0.2",       "friction_dynamic 0.1"};
+  for (const char* rate : {"50 Hz", "2.1 kHz", "10 kHz"}) {
+    std::string lines = "rate " + std::string(rate) + "\n";
+    for (const char* setting : settings) {
+      lines += std::string(setting) + "\n";
+      const Trace trace = run_with(lines);
+      CHECK_EQ(trace.records.back().output.faults, 0u);
+      CHECK_EQ(trace.records.back().output.state & record::kStateServoMask,
+               static_cast<uint32_t>(servo::Mode::kOn));
+    }
+  }
+}
+
 TEST(Scenario_Overload_IsAFaultAndTheReportSaysHowMuch) {
   const Trace trace = run_with("at 0.2 s load 0.8\nat 0.5 s load 1.2\n");
   CHECK_EQ(trace.records[499].output.faults, 0u);
