@@ -35,6 +35,19 @@ MaterialNumbersOfAFileAreThoseOfTheTriangles() {
   f info b.fta; same "$a" "$(printf '%s\n' "$out" | grep 'section 1012')"
 }
 
+AToolOfSpheresTouchesOneMaterial() {
+  box_obj usemtl >box.obj; feel >feel.txt
+  for name in tip end; do printf 'sphere 0 0 0 mm radius 5 mm\n' >$name.tool; done
+  f bake box.obj tip.tool -o none.fta --materials feel.txt --unit m; exits 3
+  says 'tip.tool: a tool of spheres touches one mesh of one material: leave it out, or --materials'
+  absent none.fta
+  echo 'object a of box' >scene.objects
+  f bake box.obj tip.tool scene.objects -o none.fta --unit m; exits 3
+  says 'leave it out, or the file .objects'
+  bake box.obj tip.tool end.tool -o two.fta --unit m
+  says 'a controller uses tool `end`, not `tip`; bake one alone'
+}
+
 WavesOfAMaterialAreBaked() {
   box_obj usemtl >box.obj; feel >feel.txt
   bake box.obj -o smooth.fta --materials feel.txt

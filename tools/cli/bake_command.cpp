@@ -43,7 +43,8 @@ file's stem. What can be mended safely is mended and reported; the rest is refus
 A file .objects places meshes that are baked with it, one object a line; # is a comment:
   object NAME of MESH [at X Y Z mm] [turned A deg about X Y Z] [stiffness K N/m]
          [friction F [sliding F]] [moves X Y Z mm/s] [turns X Y Z rad/s]
-An object stands until a command moves it (firmtouch-sim run: at T s move NAME).
+K and the parameter contact_stiffness are two springs in series: 3000 and 1000 N/m feel
+like 750. An object stands until a command moves it (firmtouch-sim run: at T s move NAME).
 A file of --materials says how triangles feel, one material a line:
   material NAME [stiffness K N/m] [friction F [sliding F]] [viscous C Ns/m]
          [waves H mm every L mm along X Y Z [and X Y Z]]

@@ -1,5 +1,6 @@
 #include "cli/baked_asset.hpp"
 
+#include <algorithm>
 #include <map>
 
 #include "bake/asset/asset_views.hpp"
@@ -21,6 +22,7 @@
 #include "device/machines.hpp"
 #include "firmtouch/field/layout.hpp"
 #include "firmtouch/hull/layout.hpp"
+#include "firmtouch/scene/materials_layout.hpp"
 
 namespace firmtouch::cli {
 namespace {
@@ -324,6 +326,21 @@ BakeRequest bake_request(const Arguments& arguments) {
   return request;
 }
 
+// A tool of spheres touches one mesh of one material (scene/tool_layout.hpp, kRuleToolAlone).
+void check_tool_alone(const std::vector<tools::Section>& sections) {
+  const auto first = [&](uint32_t type) {
+    return std::find_if(sections.begin(), sections.end(),
+                        [type](const tools::Section& section) { return section.type == type; });
+  };
+  const auto tool = first(scene::kToolSection);
+  if (tool == sections.end()) return;
+  const bool has_objects = first(scene::kObjectsSection) != sections.end();
+  if (!has_objects && first(scene::kMaterialsSection) == sections.end()) return;
+  fail_input(tool->name +
+             ".tool: a tool of spheres touches one mesh of one material: leave it out, or " +
+             (has_objects ? "the file .objects" : "--materials"));
+}
+
 BakedAsset bake_asset(BakeRequest request, const std::string& output) {
   for (const std::string& input : request.inputs) {
     if (is_run(input) || is_asset(input) || is_objects_file(input) || is_tool_file(input)) continue;
@@ -346,6 +363,7 @@ BakedAsset bake_asset(BakeRequest request, const std::string& output) {
     }
     baked.reports.push_back({name_of(files[i], request.options), std::move(inputs[i].report)});
   }
+  check_tool_alone(sections);
   tools::AssetFile file = tools::write_asset(sections);
   if (!file.problem.empty()) fail_input(output + ": " + file.problem);
   baked.bytes = std::move(file.bytes);

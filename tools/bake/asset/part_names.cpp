@@ -36,11 +36,13 @@ std::string needed_parts_text(const asset::Container& asset) {
 
 std::vector<std::string> used_of_several(const asset::Container& asset) {
   struct Kind {
-    const char *name, *key;
+    const char *name, *remedy;
     uint32_t parts[2];
   };
-  constexpr Kind kKinds[] = {{"surface", "mesh", {kPartMesh, kPartSpline}},
-                             {"guide", "guide", {kPartGuide, kPartSplineGuide}}};
+  constexpr Kind kKinds[] = {
+      {"surface", "a scenario may choose: mesh NAME", {kPartMesh, kPartSpline}},
+      {"guide", "a scenario may choose: guide NAME", {kPartGuide, kPartSplineGuide}},
+      {"tool", "bake one alone", {kPartTool, 0}}};
   std::vector<std::string> lines;
   const bool has_objects = (needed_parts(asset) & kPartObjects) != 0;
   for (const Kind& kind : kKinds) {
@@ -53,7 +55,7 @@ std::vector<std::string> used_of_several(const asset::Container& asset) {
     if (names.size() < 2) continue;
     std::string line = std::string("a controller uses ") + kind.name + " " + names[0] + ", not ";
     for (size_t i = 1; i < names.size(); ++i) line += (i == 1 ? "" : ", ") + names[i];
-    lines.push_back(line + "; a scenario may choose: " + kind.key + " NAME");
+    lines.push_back(line + "; " + kind.remedy);
   }
   return lines;
 }
