@@ -129,7 +129,7 @@ AHullIsBakedShownAndAsked() {
     # shellcheck disable=SC2086
     f query s.fta part hull $mode <g.csv; exits 0
     same "$(printf '%s\n' "$out" | cut -d, -f1-3)" "$tree"
-    same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps
+    same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps,exact
   done
   f query s.fta part hull --mode refine --budget 3 <g.csv; exits 0
   f query s.fta part hull --time <g.csv; exits 0

@@ -9,8 +9,34 @@ SegmentsHitABoxWhereTheyShould() {
 1,0.5
 0,1
 1,0.5'
-  same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps
+  same "$(printf '%s\n' "$out" | sed -n 1p)" hit,t,triangle,steps,exact
   same "$(printf '%s\n' "$out" | sed -n 3p | cut -d, -f3)" -1
+}
+
+ASegmentThatTheWorkCutsShortIsNoMiss() {
+  f make part -o part.obj --triangles 2000; exits 0
+  f bake part.obj -o s.fta --hull-faces 200; exits 0
+  printf 'ax,ay,az,bx,by,bz\n-1,0.01,0.002,1,0.012,0.003\n1,1,1,2,2,2\n' >g.csv
+  printf 'ax,ay,az,bx,by,bz,cx,cy,cz\n-1,0.01,0.002,1,0.012,0.003,0,0,1\n' >t.csv
+  for kind in segment hull 'hull --mode refine'; do
+    # shellcheck disable=SC2086
+    f query s.fta part $kind <g.csv; exits 0
+    same "$(printf '%s\n' "$out" | cut -d, -f1,5 | tr '\n' ' ')" 'hit,exact 1,1 0,1 '
+    # shellcheck disable=SC2086
+    f query s.fta part $kind --work 10 <g.csv; exits 0
+    same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f5)" 0
+    # shellcheck disable=SC2086
+    f query s.fta part $kind --all --work 10 <g.csv; exits 0; says 'ended the queries of 1 rows' 'raise --work'
+    # shellcheck disable=SC2086
+    f query s.fta part $kind --all <g.csv; exits 0; same "$err" ''
+  done
+  for mode in complete refine; do
+    f query s.fta part hull --mode $mode --primitive triangle <t.csv; exits 0
+    same "$(printf '%s\n' "$out" | cut -d, -f1,4 | tr '\n' ' ')" 'hit,exact 1,1 '
+    f query s.fta part hull --mode $mode --primitive triangle --work 10 <t.csv; exits 0
+    same "$(printf '%s\n' "$out" | sed -n 2p | cut -d, -f4)" 0
+    f query s.fta part hull --mode $mode --primitive triangle --all --work 10 <t.csv; exits 0; says 'of 1 rows'
+  done
 }
 
 EveryCrossingOfASegmentIsARowInOrder() {

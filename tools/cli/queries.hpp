@@ -12,6 +12,9 @@ namespace firmtouch::cli {
 /// --budget: unlimited unless given.
 query::Budget budget_of(const Arguments& arguments);
 
+/// Of a query of every crossing: warns where the work ended some rows' queries.
+void warn_cut_short(size_t rows);
+
 struct CurveOptions {
   bool is_exact = true;  // else the published way: of the N nearest samples
   uint32_t nearest = 0;

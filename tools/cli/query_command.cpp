@@ -76,10 +76,13 @@ Command query_command() {
      segment, hull: header ax,ay,az,bx,by,bz     (metres)
      hull --primitive ray: ax,ay,az,dx,dy,dz; triangle: ax,ay,az,bx,by,bz,cx,cy,cz
 out: distance: distance,sign,cx,cy,cz,nx,ny,nz,triangle,feature,lower,steps,exact
-               (negative inside; sign 0: unknown; lower: no point of the surface is nearer)
-     segment, hull: hit,t,triangle,steps    (the first crossing from a to b; -1: no triangle)
-     hull --primitive ray: t in lengths of its direction; triangle: hit,triangle,steps (the lowest
-               that it crosses); --all: asked,triangle
+               (negative inside; sign 0: unknown; lower: no point of the surface is nearer;
+               exact 0: the work ended first, or floats cannot say on which side the point is)
+     segment, hull: hit,t,triangle,steps,exact
+               (the first crossing from a to b; -1: no triangle; exact 0: the work ended before it
+               was certain, or the row is not finite)
+     hull --primitive ray: t in lengths of its direction; triangle: hit,triangle,steps,exact
+               (the lowest that it crosses); --all: asked,triangle
      curve:    distance,cx,cy,cz,segment,arc,lower,steps,exact
      spline:   distance,cx,cy,cz,piece,u,v,lower,steps,exact
                (piece: of the file, from 0; u, v: its own)
@@ -90,8 +93,7 @@ Rows are answered in order, each warm-started by the one before.)",
       {{"--cold", nullptr, "each row on its own"},
        {"--work", "N",
         "at most N work units a query, of about 100 instructions of a Cortex-M7 (default: "
-        "unlimited, "
-        "so exact)"},
+        "unlimited)"},
        {"--budget", "N", "the same in visits of 2.5 units; dropped in the next version"},
        {"--time", nullptr, "no rows: median processor time a query, of 5 passes"},
        {"--json", nullptr, "a JSON object a row, instead of CSV"},

@@ -69,6 +69,14 @@ query::Budget budget_of(const Arguments& arguments) {
   return budget;
 }
 
+void warn_cut_short(size_t rows) {
+  if (rows != 0)
+    std::fprintf(stderr,
+                 "firmtouch: query: the work or the range of floats ended the queries of %zu rows: "
+                 "they may cross more; raise --work, or leave it out\n",
+                 rows);
+}
+
 void query_distance(const LoadedMesh& mesh, tools::Point origin_m, CsvTable table,
                     const Arguments& arguments) {
   answer_rows(

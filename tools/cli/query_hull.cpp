@@ -23,22 +23,30 @@ class HullQuery {
   virtual mesh::Hit first(math::Vec3 a_m, math::Vec3 b_m) = 0;
   /// Every crossing in order of t, none left out for want of room.
   core::Span<const mesh::SurfaceCrossing> all(math::Vec3 a_m, math::Vec3 b_m) {
-    uint32_t found = cross(a_m, b_m);
-    if (found > room_.size()) {
-      room_.resize(found);
+    Found found = cross(a_m, b_m);
+    if (found.count > room_.size()) {
+      room_.resize(found.count);
       found = cross(a_m, b_m);
     }
-    return {room_.data(), found};
+    if (!found.exact) ++cut_short_;
+    return {room_.data(), found.count};
   }
+  /// Of how many rows the work ended before all of their crossings were found.
+  size_t cut_short() const { return cut_short_; }
 
  protected:
-  virtual uint32_t cross(math::Vec3 a_m, math::Vec3 b_m) = 0;
+  struct Found {
+    uint32_t count;
+    bool exact;
+  };
+  virtual Found cross(math::Vec3 a_m, math::Vec3 b_m) = 0;
   core::Span<mesh::SurfaceCrossing> room() {
     return {room_.data(), static_cast<uint32_t>(room_.size())};
   }
 
  private:
   std::vector<mesh::SurfaceCrossing> room_ = std::vector<mesh::SurfaceCrossing>(64);
+  size_t cut_short_ = 0;
 };
 
 class Complete : public HullQuery {
@@ -49,8 +57,9 @@ class Complete : public HullQuery {
   }
 
  protected:
-  uint32_t cross(math::Vec3 a_m, math::Vec3 b_m) override {
-    return hull::all_crossings(view_, a_m, b_m, budget_, room()).found;
+  Found cross(math::Vec3 a_m, math::Vec3 b_m) override {
+    const auto all = hull::all_crossings(view_, a_m, b_m, budget_, room());
+    return {all.found, all.exact};
   }
 
  private:
@@ -78,8 +87,9 @@ class Refined : public HullQuery {
   }
 
  protected:
-  uint32_t cross(math::Vec3 a_m, math::Vec3 b_m) override {
-    return refinement_.all(a_m, b_m, budget_, room()).found;
+  Found cross(math::Vec3 a_m, math::Vec3 b_m) override {
+    const hull::RefinedCrossings all = refinement_.all(a_m, b_m, budget_, room());
+    return {all.found, all.exact};
   }
 
  private:
@@ -129,19 +139,26 @@ void answer(HullQuery& hull_query, const LoadedHull& hull, CsvTable& table,
       for (const mesh::SurfaceCrossing& c : hull_query.all(line.from_m, line.to_m))
         rows.add({i, c.t * line.reach, hull.source_of(c.triangle)});
     }
-    return rows.finish();
+    rows.finish();
+    return warn_cut_short(hull_query.cut_short());
   }
-  Rows<std::tuple<bool, float, int64_t, uint32_t>> rows({"hit", "t", "triangle", "steps"},
-                                                        arguments);
+  Rows<std::tuple<bool, float, int64_t, uint32_t, bool>> rows(
+      {"hit", "t", "triangle", "steps", "exact"}, arguments);
   for (size_t i = 0; table.has(i); ++i) {
     const hull::RaySegment line = line_of(i);
     const mesh::Hit hit = hull_query.first(line.from_m, line.to_m);
     const bool is_of_mesh = hit.hit && hit.triangle != UINT32_MAX;
     const int64_t triangle = is_of_mesh ? int64_t{hull.source_of(hit.triangle)} : -1;
-    rows.add({hit.hit, hit.t * line.reach, triangle, hit.steps});
+    rows.add({hit.hit, hit.t * line.reach, triangle, hit.steps, hit.exact});
   }
   rows.finish();
 }
+
+// Of a triangle's query.
+struct Effort {
+  uint32_t steps;
+  bool exact;
+};
 
 // The lowest triangle that each row's crosses, or all of them.
 template <class Query>
@@ -165,16 +182,20 @@ void answer_triangles(const LoadedHull& hull, CsvTable& table, const Arguments& 
   }
   if (arguments.has("--all")) {
     Rows<std::tuple<size_t, uint32_t>> rows({"asked", "triangle"}, arguments);
+    size_t cut_short = 0;
     for (size_t i = 0; table.has(i); ++i) {
-      (void)query_one(corners(i), met);
+      if (!query_one(corners(i), met).exact) ++cut_short;
       for (const uint32_t triangle : met) rows.add({i, hull.source_of(triangle)});
     }
-    return rows.finish();
+    rows.finish();
+    return warn_cut_short(cut_short);
   }
-  Rows<std::tuple<bool, int64_t, uint32_t>> rows({"hit", "triangle", "steps"}, arguments);
+  Rows<std::tuple<bool, int64_t, uint32_t, bool>> rows({"hit", "triangle", "steps", "exact"},
+                                                       arguments);
   for (size_t i = 0; table.has(i); ++i) {
-    const uint32_t steps = query_one(corners(i), met);
-    rows.add({!met.empty(), met.empty() ? -1 : int64_t{hull.source_of(met[0])}, steps});
+    const Effort effort = query_one(corners(i), met);
+    rows.add({!met.empty(), met.empty() ? -1 : int64_t{hull.source_of(met[0])}, effort.steps,
+              effort.exact});
   }
   rows.finish();
 }
@@ -206,7 +227,7 @@ void query_hull(const LoadedHull& hull, CsvTable table, const Arguments& argumen
       const hull::TriangleHits reported =
           hull::all_crossed(hull.view, c.at_m, budget, {met.data(), triangles});
       met.resize(reported.reported);
-      return reported.steps;
+      return Effort{reported.steps, reported.exact};
     });
   }
   if (!is_refined(arguments)) {
@@ -239,7 +260,7 @@ void query_hull(const LoadedHull& hull, CsvTable table, const Arguments& argumen
       const hull::RefinedCrossings reported = refined.crossed(c.at_m, {room.data(), triangles});
       met.clear();
       for (uint32_t i = 0; i < reported.reported; ++i) met.push_back(room[i].triangle);
-      return reported.steps;
+      return Effort{reported.steps, reported.exact};
     });
   }
   answer(refined, hull, table, arguments);

@@ -15,6 +15,9 @@ class AllCrossings {
  public:
   AllCrossings(const LoadedMesh& mesh, query::Budget budget) : mesh_(mesh), budget_(budget) {}
 
+  // Of how many rows the work ended before all of their crossings were found.
+  size_t cut_short() const { return cut_short_; }
+
   core::Span<const mesh::SurfaceCrossing> of(const float* row) {
     const math::Vec3 a_m = point_of(row), b_m = point_of(row + 3);
     mesh::Crossings all = find(a_m, b_m);
@@ -22,6 +25,7 @@ class AllCrossings {
       buffer_.resize(all.found);
       all = find(a_m, b_m);
     }
+    if (!all.exact) ++cut_short_;
     return {buffer_.data(), all.reported};
   }
 
@@ -33,6 +37,7 @@ class AllCrossings {
 
   const LoadedMesh& mesh_;
   query::Budget budget_;
+  size_t cut_short_ = 0;
   std::vector<mesh::SurfaceCrossing> buffer_ = std::vector<mesh::SurfaceCrossing>(64);
 };
 
@@ -52,6 +57,7 @@ void query_all(const LoadedMesh& mesh, CsvTable& table, const Arguments& argumen
     for (const mesh::SurfaceCrossing& c : crossings.of(table.row(i)))
       rows.add({i, c.t, mesh.source_of(c.triangle)});
   rows.finish();
+  warn_cut_short(crossings.cut_short());
 }
 
 }  // namespace
@@ -71,12 +77,12 @@ void query_segment(const LoadedMesh& mesh, CsvTable table, const Arguments& argu
     });
     return;
   }
-  Rows<std::tuple<bool, float, int64_t, uint32_t>> rows({"hit", "t", "triangle", "steps"},
-                                                        arguments);
+  Rows<std::tuple<bool, float, int64_t, uint32_t, bool>> rows(
+      {"hit", "t", "triangle", "steps", "exact"}, arguments);
   for (size_t i = 0; table.has(i); ++i) {
     const mesh::Hit hit = cast(i);
     const int64_t triangle = hit.hit ? int64_t{mesh.source_of(hit.triangle)} : -1;
-    rows.add({hit.hit, hit.t, triangle, hit.steps});
+    rows.add({hit.hit, hit.t, triangle, hit.steps, hit.exact});
   }
   rows.finish();
 }
