@@ -34,7 +34,7 @@ bool file_link_begin() {
   if (g_in >= 0 && g_out >= 0) return true;
   board_print("Cannot open the link's files: ");
   board_print(prefix);
-  board_print(" (create PREFIX.in and PREFIX.out with mkfifo first)\n");
+  board_print(" (first: mkfifo PREFIX.in PREFIX.out)\n");
   board_exit(kCannotOpen);
 }
 

@@ -115,6 +115,21 @@ TEST(ClockThatStandsIsABrokenClockAtTheThirdTick) {
   CHECK(is_near(reading.dt_s, 0.5f * kPeriod_s));
 }
 
+// A timer at another rate than the parameter's, which no single tick shows. 50 % jitter does not.
+TEST(ClockOfAnotherRate_IsABrokenClockAtThe32ndTick) {
+  Clock clock;
+  (void)clock.after(0);
+  for (uint32_t i = 1; i <= 40; ++i) CHECK_EQ(clock.after(799).faults != 0, i >= 32);
+  CHECK_EQ(clock.after(799).faults, servo::kFaultClock);
+  CHECK_EQ(clock.after(801).faults, 0u);
+  servo::clear(clock.state);
+  uint32_t random = 1;
+  for (int i = 0; i < 1000000; ++i) {
+    random = random * 1664525u + 1013904223u;
+    CHECK_EQ(clock.after(501 + (random >> 16) % 998u).faults & servo::kFaultClock, 0u);
+  }
+}
+
 TEST(ThreeOverloadedTicksOfTen_AreAnOverload) {
   const uint32_t works_us[] = {899u, 901u, 1050u, UINT32_MAX};
   for (const uint32_t work_us : works_us) {

@@ -31,7 +31,7 @@ uint32_t explain(const Identity& host, const HelloReply& reply, core::Span<char>
     out.decimal(controller.protocol).text(": build both from the same release\n");
   }
   if ((reply.refused & kRefusedNotReady) != 0) {
-    out.text("asset: the controller is still checking it: try again\n");
+    out.text("asset: it is still being checked: try again\n");
   }
   if ((reply.refused & kRefusedAssetRejected) != 0) {
     out.text("asset: the controller rejects it by rule R").decimal(reply.asset_rule);
@@ -54,9 +54,7 @@ uint32_t explain(const Identity& host, const HelloReply& reply, core::Span<char>
     out.text("mode: unknown to the controller: build both from the same release\n");
   }
   if ((reply.refused & kRefusedBusy) != 0) {
-    out.text(
-        "lock-step: the servo already runs from its timer: reset the controller with the enable "
-        "switch open\n");
+    out.text("lock-step: the servo runs already: reset it with the enable switch open\n");
   }
   return out.size();
 }

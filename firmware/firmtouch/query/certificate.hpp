@@ -7,9 +7,10 @@ namespace firmtouch::query {
 /// Work that a query may do, and the distance beyond which it need not be exact. Work counts in
 /// units of about 100 instructions of a Cortex-M7: a visit of a tree node is at most one (of a mesh
 /// a third), a triangle two thirds, what takes longer several. Beyond band_m the answer is a
-/// certified lower bound: at least band_m unless the work ran out, with the sign if it is known
-/// without a search. Its point may then be any point of the surface. With a threshold a mesh may
-/// answer less sharply, and not exactly, where both bounds are above it or both below.
+/// certified lower bound: band_m less what floats lose, below 2e-6 of the size, unless the work ran
+/// out, with the sign if it is known without a search. Its point may then be any point of the
+/// surface. With a threshold a mesh may answer less sharply, and not exactly, where both bounds are
+/// above it or both below.
 struct Budget {
   uint32_t work = UINT32_MAX;  // 0 counts as 1
   float band_m = FLT_MAX;      // NaN counts as 0

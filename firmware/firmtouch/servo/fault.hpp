@@ -10,7 +10,7 @@ constexpr uint32_t kFaultNotFinite = 1u << 0;      // position, velocity or forc
 constexpr uint32_t kFaultModel = 1u << 1;          // a local model with NaN or out of range
 constexpr uint32_t kFaultStaleModel = 1u << 2;     // model_age
 constexpr uint32_t kFaultDeadline = 1u << 3;       // late_ratio, tick_period_s (clock_watch.hpp)
-constexpr uint32_t kFaultClock = 1u << 4;          // jumped or stood still; tick_period_s
+constexpr uint32_t kFaultClock = 1u << 4;          // jumped, stood, other rate; tick_period_s
 constexpr uint32_t kFaultEncoder = 1u << 5;        // lost, or faster than max_speed_mps
 constexpr uint32_t kFaultWorkspace = 1u << 6;      // outside of workspace_half_{x,y,z}_m
 constexpr uint32_t kFaultDrive = 1u << 7;          // the motor driver's line
@@ -62,7 +62,7 @@ constexpr const char* fault_text(uint32_t number) {
       "local model out of range",
       "no local model in time (model_age)",
       "late ticks (late_ratio, tick_period_s)",
-      "clock jumped or stood (tick_period_s)",
+      "clock jumped, or early ticks (tick_period_s)",
       "encoder lost, or beyond max_speed_mps",
       "tool left workspace_half_{x,y,z}_m",
       "the drive reported a fault",

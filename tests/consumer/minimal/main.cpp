@@ -28,6 +28,6 @@ int main() {
   hal::board_begin();
   hal::motors_off();
   if (!controller.open(hal::board_asset()).ok()) hal::board_exit(controller.verdict().rule);
-  hal::clock_start_servo(1000, servo_interrupt);  // every millisecond
+  hal::clock_start_servo(1000, servo_interrupt);  // 1 ms, as tick_period says
   for (;;) asm volatile("wfi");
 }
