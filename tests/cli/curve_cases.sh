@@ -33,6 +33,18 @@ ASmoothCurveGoesThroughItsSamplesWithoutCorners() {
     fail "answers: $out"
 }
 
+# Read as float32, the step of 3.3e-7 m turns by up to a tenth, and the pieces of 0.8 m beside it with it.
+AShortStepBesideALongPieceIsSaid() {
+  printf 'x,y,z\n0,0,0\n0.7,0.1,0.3\n0.70000031,0.10000077,0.2999999\n1.1,0.9,0.2\n' >c.csv
+  bake c.csv -o a.fta --smooth
+  says 'row 2 is 8.3e-07 m from the next one, beside a piece of' 'may lie up to 0.015 m' 'leave one of them out'
+  bake c.csv -o a.fta
+  case $err in *'leave one'*) fail "$err" ;; esac
+  printf 'x,y,z\n0,0,0\n0.7,0.1,0.3\n0.701,0.103,0.298\n1.1,0.9,0.2\n' >c.csv
+  bake c.csv -o a.fta --smooth
+  case $err in *'leave one'*) fail "$err" ;; esac
+}
+
 AQueryOfACurveWithoutWorkIsStarvedAndNotRefused() {
   f make path --points 400 -o path.csv
   printf 'x,y,z\n0.3,0.1,0.2\n' >p.csv

@@ -39,6 +39,7 @@ tools::Facts facts_of(const curve::View& view, const tools::CurveReport& report,
 
 // What the parameters workspace_half_x_m, _y_m and _z_m are where nobody sets them.
 constexpr double kUsualWorkspace_m = 0.5;
+constexpr double kMaxTurned = 1e-5;  // of the diagonal, at worst; usually a tenth of it
 
 double reach_of(const curve::View& view, const tools::Point& origin_m) {
   const double origin[3] = {origin_m.x, origin_m.y, origin_m.z};
@@ -107,6 +108,17 @@ BakedInput bake_points(const tools::CurvePoints& given, const std::string& path,
                steps.random_mean, steps.random_worst),
       sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
                steps.path_mean, steps.path_worst)};
+  const double diagonal_m = static_cast<double>(view.head().diagonal_m);
+  if (report.turned_m > kMaxTurned * diagonal_m)
+    baked.report.push_back(
+        "row " + std::to_string(report.turned_row + 1) +
+        sentence(" is %.2g m from the next one, beside a piece of %.3g m: as float32 so short a "
+                 "step turns, ",
+                 report.turned_step_m, report.turned_piece_m) +
+        sentence("and the smooth curve may lie up to %.2g m from that of the file, %.1g of its "
+                 "diagonal; "
+                 "leave one of them out",
+                 report.turned_m, report.turned_m / diagonal_m));
   const double reach_m = reach_of(view, options.model.origin_m);
   if (reach_m > kUsualWorkspace_m)
     baked.report.push_back(

@@ -68,6 +68,30 @@ float beyond_of(const std::vector<curve::Sample>& samples, const curve::Head& he
   return max_m / extent_m;
 }
 
+// A sample is stored up to u of its distance from the origin off, with u = 2^-24. That turns a
+// short step, whose direction is nearly the tangent of a long piece beside it (curve/cubic.hpp,
+// slope_at()). A slope that turns by an angle moves a Bezier point by a third of the piece times as
+// much, and the piece by 4/9 of that.
+void find_turned(const std::vector<curve::Sample>& samples, const std::vector<uint32_t>& rows,
+                 bool is_closed, CurveReport& report) {
+  const auto size_m = [](const curve::Sample& s) { return distance_m(s, {0, 0, 0}); };
+  const size_t last = samples.size() - 1;
+  for (size_t i = is_closed ? 0 : 1; i < last; ++i) {
+    const curve::Sample &at = samples[i], &before = samples[i == 0 ? last - 1 : i - 1],
+                        &after = samples[i + 1];
+    const double before_m = distance_m(before, at), after_m = distance_m(at, after);
+    const bool is_first_short = before_m < after_m;
+    const double step_m = std::min(before_m, after_m), piece_m = std::max(before_m, after_m);
+    const double lost_m = 0x1p-24 * (size_m(at) + size_m(is_first_short ? before : after));
+    const double turned_m = 4.0 / 27 * lost_m / step_m * piece_m * piece_m / (step_m + piece_m);
+    if (turned_m <= report.turned_m) continue;
+    report.turned_m = turned_m;
+    report.turned_step_m = step_m;
+    report.turned_piece_m = piece_m;
+    report.turned_row = rows[is_first_short && i > 0 ? i - 1 : i];
+  }
+}
+
 bool has_gaps(const std::vector<uint32_t>& rows) {
   for (size_t i = 0; i < rows.size(); ++i)
     if (rows[i] != i) return true;
@@ -109,6 +133,7 @@ std::vector<Section> bake_curve(const CurvePoints& points, const std::string& na
                      "its points; move it nearer to the origin";
     return {};
   }
+  if (mended.is_smooth) find_turned(samples, mended.rows, head.is_closed != 0, report);
   std::vector<Section> sections;
   sections.push_back(make_section(curve::kHeadSection, name, &head, 1));
   sections.push_back(make_section(curve::kSamplesSection, name, samples));

@@ -15,6 +15,10 @@ struct CurveReport {
   bool is_closed = false;
   double length_m = 0;
   double shortest_segment_m = 0, longest_segment_m = 0;
+  // Where smooth: how far from the curve of the file's decimals it may lie, because they are stored
+  // as float32, and the step to blame: its row and length, and the piece beside it.
+  double turned_m = 0, turned_step_m = 0, turned_piece_m = 0;
+  uint32_t turned_row = 0;
   uint64_t bytes = 0;       // of all sections
   uint64_t tick_bytes = 0;  // of those that a tick reads
   std::string problem;      // empty: baked and proven; else what, where and how to mend
