@@ -103,6 +103,13 @@ TEST(StlBinaryIsReadWhateverItsHeaderHolds) {
   CHECK(reads_cube(cube_stl_binary(std::string(80, ' '))));
 }
 
+// Whatever the number of facets is, the facets themselves are no text.
+TEST(StlBinaryOfAWrongNumber_IsNoText) {
+  std::string bytes = cube_stl_binary("solid cube");
+  bytes.replace(0, 84, "solid" + std::string(75, ' ') + std::string(4, '\xFF'));
+  CHECK(refuses(bytes, "byte 80", "the header states 4294967295 facets"));
+}
+
 TEST(StlAttributesAreCountedAndPassedOver) {
   CHECK(reads_cube(cube_stl_binary("COLOR=\x10\x20\x30\xFF", 0x7C1F), 1));
   CHECK(says(read(cube_stl_binary("", 0x8000)).notes, "attribute bytes (colours) of 12 of 12"));

@@ -34,9 +34,10 @@ bool has_its_length(std::string_view bytes) {
          bytes.size() == kHeaderBytes + kFacetBytes * u32_at(bytes, 80);
 }
 
-// A binary's number of facets has a zero among its bytes up to 16.7 million of them.
+// A binary's number of facets has a zero among its bytes up to 16.7 million of them, and its first
+// facet has two attribute bytes, as a rule.
 bool is_text(std::string_view bytes) {
-  if (bytes.substr(0, kHeaderBytes).find('\0') != bytes.npos) return false;
+  if (bytes.substr(0, kHeaderBytes + kFacetBytes).find('\0') != bytes.npos) return false;
   if (bytes.substr(0, 3) == "\xEF\xBB\xBF") bytes.remove_prefix(3);
   const size_t first = bytes.find_first_not_of(" \t\r\n");
   if (first == bytes.npos || bytes.size() - first < 5) return false;
