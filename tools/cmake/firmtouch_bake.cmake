@@ -74,7 +74,9 @@ function(firmtouch_add_output target output verb words options depends)
 endfunction()
 
 # firmtouch_bake(TARGET NAME INPUTS FILE... OUTPUT FILE.fta [OPTIONS ...]): target NAME, which bakes OUTPUT (relative: in
-# the current binary folder). INPUTS may be files that other targets make; name those targets in DEPENDS.
+# the current binary folder). INPUTS may be files that other targets make; name those targets in DEPENDS. Relative INPUTS,
+# and the files of --device, --materials and --material-numbers, are in the current source folder; if one changes, the
+# asset is baked again. --device may also name a machine, and each of the three a file that is made in the binary folder.
 function(firmtouch_bake)
   cmake_parse_arguments(bake "" "TARGET;OUTPUT" "INPUTS;OPTIONS;DEPENDS" ${ARGN})
   if(NOT bake_TARGET OR NOT bake_INPUTS OR NOT bake_OUTPUT OR bake_UNPARSED_ARGUMENTS)
@@ -85,7 +87,27 @@ function(firmtouch_bake)
     get_filename_component(input ${input} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
     list(APPEND inputs ${input})
   endforeach()
-  firmtouch_add_output(${bake_TARGET} ${bake_OUTPUT} "Baking" "bake;${inputs}" "${bake_OPTIONS}" "${inputs};${bake_DEPENDS}")
+  set(options)
+  set(files ${inputs})
+  set(before "")
+  foreach(word IN LISTS bake_OPTIONS)
+    set(option "")  # with its `=`, if `word` has it and its file
+    set(name "")    # of the file
+    if(before MATCHES "^--(device|materials|material-numbers)$")
+      set(name "${word}")
+    elseif(word MATCHES "^(--(device|materials|material-numbers)=)(.+)$")
+      set(option "${CMAKE_MATCH_1}")
+      set(name "${CMAKE_MATCH_3}")
+    endif()
+    set(before "${word}")
+    get_filename_component(path "${name}" ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    if(name AND (IS_ABSOLUTE "${name}" OR (EXISTS "${path}" AND NOT IS_DIRECTORY "${path}")))
+      set(word "${option}${path}")
+      list(APPEND files "${path}")
+    endif()
+    list(APPEND options "${word}")
+  endforeach()
+  firmtouch_add_output(${bake_TARGET} ${bake_OUTPUT} "Baking" "bake;${inputs}" "${options}" "${files};${bake_DEPENDS}")
 endfunction()
 
 # firmtouch_make(TARGET NAME KIND part|path|walk [MODEL FILE] OUTPUT FILE [OPTIONS ...]): target NAME, which generates a
