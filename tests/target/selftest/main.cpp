@@ -19,7 +19,7 @@ const char* const kPrompts[] = {
     "-> Turn joint 1 by hand, joints 2 and 3 stay.\n",
     "-> Turn joint 2 by hand, joints 1 and 3 stay.\n",
     "-> Turn joint 3 by hand, joints 1 and 2 stay.\n",
-    "-> Close the enable switch and let go: each motor pushes with 2 N at most.\n"};
+    "-> Close the enable switch and let go: each motor pushes with a rising force.\n"};
 
 void show(Prompt what) { hal::board_print(kPrompts[static_cast<uint32_t>(what)]); }
 

@@ -7,12 +7,17 @@
 namespace firmtouch {
 namespace {
 
-// Read before anything is broken. NUL, or none: nothing is.
+// Read before anything is broken. NUL, or none: nothing is. The next byte is how many joints the
+// device lacks.
 uint32_t defect() {
   static const uint8_t number = hal::board_asset().data()[0];
   return number;
 }
 bool has(uint32_t number) { return defect() == number; }
+uint32_t joint_count() {
+  static const uint8_t lacking = hal::board_asset().data()[1];
+  return 3u - lacking;
+}
 
 // Joints of 0.1 kg with dry friction, in counts of 10 um.
 struct Joint {
@@ -66,7 +71,8 @@ bool encoders_read(int32_t (&counts)[3]) {
   for (int32_t i = 0; i < 3; ++i) {
     move(g_joints[i], g_has_power ? g_joints[i].force_N : 0);
     if (i == g_turned) g_joints[i].position += 1;
-    counts[i] = static_cast<int32_t>(g_joints[i].position);
+    const bool is_there = static_cast<uint32_t>(i) < joint_count();
+    counts[i] = is_there ? static_cast<int32_t>(g_joints[i].position) : 0;
   }
   if (g_turned >= 0 && counts[g_turned] % 64 == 63) g_turned = -1;
   return true;
@@ -77,6 +83,9 @@ void motors_write_N(const float (&motor_N)[3]) {
 void motors_state(bool may_push) { g_has_power = may_push; }
 void motors_off() { g_has_power = false; }
 uint32_t motors_lines() { return g_lines; }
+uint32_t board_joints() { return joint_count(); }
+// Less than their friction, or enough.
+float board_test_force_N(uint32_t) { return has(41) ? 0.2f : 2.0f; }
 void emulator_exit(int) { board_print(g_has_power ? "end, power: 1\n" : "end, power: 0\n"); }
 
 }  // namespace hal

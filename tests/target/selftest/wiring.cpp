@@ -21,4 +21,8 @@ namespace firmtouch::hal {
   return "";
 }
 
+[[gnu::weak]] uint32_t board_joints() { return 3; }
+
+[[gnu::weak]] float board_test_force_N(uint32_t) { return 2.0f; }
+
 }  // namespace firmtouch::hal
