@@ -96,6 +96,23 @@ APlanChoosesThePoolOfATickByWhatTheCoreDoes() {
   printf '%s\n' "$out" | grep -q '^tick_work 1000 takes at most 230000 instructions a tick' || fail "$out"
 }
 
+APlanSaysWhetherYourProgramHasTwoRates() {
+  f make path -o path.csv; exits 0
+  image() { printf '[{"board": "mine", "parts": "all", %s"flash": 900, "ram": 20, "record_ring": 7, "stack": {"opening": 3, "lock_step": 5, "running": 4}}]' "$1"; }
+  for rates in '' '"two_rates": false, '; do
+    image "$rates" >own.json
+    f plan path.csv --flash 1M --ram 64K --rate 4k --mips 123.3 --resources own.json; exits 0
+    printf '%s\n' "$out" | grep -q ': build with -DFIRMTOUCH_APP_TWO_RATES=ON$' || fail "$out"
+    printf '%s\n' "$out" | grep -q '^program: the parts all, at most 900 bytes' || fail "$out"
+  done
+  image '"two_rates": true, ' >own.json
+  f plan path.csv --flash 1M --ram 64K --rate 4k --mips 123.3 --resources own.json; exits 0
+  printf '%s\n' "$out" | grep -q ': the program has two rates$' || fail "$out"
+  printf '%s\n' "$out" | grep -q '^program: the parts all at two rates, at most 900 bytes' || fail "$out"
+  f plan path.csv --flash 1M --ram 64K --resources own.json --json; exits 0; well_formed
+  printf '%s\n' "$out" | grep -q '"two_rates": true' || fail "$out"
+}
+
 WhatIsNoPlanIsRefused() {
   box >box.obj
   f plan box.obj --ram 64K; exits 2; says '--flash'

@@ -127,7 +127,8 @@ std::vector<std::string> pools(const Limits& limits, const PlanRow& row) {
   const double room = std::floor(limits.mips * 1e6 / (limits.rate_Hz * a_unit));
   if (room < fixed + 1)
     return {rounded(room) + " units a tick are below the least pool of " + rounded(fixed + 1) +
-                ": build with FIRMTOUCH_APP_TWO_RATES",
+                (row.image.has_two_rates ? ": the program has two rates"
+                                         : ": build with -DFIRMTOUCH_APP_TWO_RATES=ON"),
             "geometry at most at " +
                 rounded(std::floor(limits.mips * 1e6 / ((fixed + 1) * a_unit))) +
                 " Hz then; without it --rate is at most that"};
@@ -176,6 +177,7 @@ std::string json_of(const Planner& planner, const std::vector<std::string>& said
     json.add("options", tools::json_text(row.text()));
     if (!row.refused.empty()) return json.add("refused", tools::json_text(row.refused)).object();
     return json.add("program", tools::json_text(row.image.parts))
+        .add("two_rates", row.image.has_two_rates)
         .add("asset", row.asset)
         .add("field", row.field)
         .add("hull", row.hull)
@@ -237,7 +239,8 @@ int run_plan(const Arguments& arguments) {
                 " bytes, RAM " + std::to_string(row.image.whole_ram()) + " of " +
                 std::to_string(limits.ram) + ", " + std::to_string(row.image.stack) +
                 " of it stack (STACK_BYTES of your link.ld)",
-            "program: the parts " + row.image.parts + ", at most " +
+            "program: the parts " + row.image.parts +
+                (row.image.has_two_rates ? " at two rates" : "") + ", at most " +
                 std::to_string(row.image.flash) + " bytes on " + row.image.board};
     for (const std::string& line : pools(limits, row)) said.push_back(line);
     std::string bake = "bake: firmtouch bake";

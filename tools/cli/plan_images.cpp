@@ -69,6 +69,7 @@ std::vector<Image> measured_images(const std::string& path) {
     Image image;
     image.board = json.text(json.member(item, "board"));
     image.parts = json.text(json.member(item, "parts"));
+    image.has_two_rates = json.text(json.member(item, "two_rates")) == "true";
     image.flash = bytes_of(item, "flash");
     image.ram = bytes_of(item, "ram");
     image.records = bytes_of(item, "record_ring");

@@ -9,7 +9,8 @@ namespace firmtouch::cli {
 /// stack, stack of the deepest phase.
 struct Image {
   std::string board;
-  std::string parts;  // as in FIRMTOUCH_APP
+  std::string parts;           // as in FIRMTOUCH_APP
+  bool has_two_rates = false;  // FIRMTOUCH_APP_TWO_RATES
   uint64_t flash = 0, ram = 0, stack = 0;
   uint64_t records = 0;  // RAM of the record ring
 
