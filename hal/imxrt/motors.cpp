@@ -56,7 +56,7 @@ void motors_write_N(const float (&motor_N)[3]) {
     const uint32_t base = kPulse2 + kSubmodule_bytes * kPulses[i].submodule;
     pin_write(kDirectionPins[i], motor_N[i] < 0);
     reg16(base + (kPulses[i].is_channel_b ? kEndB : kEndA)) =
-        static_cast<uint16_t>(pulse_width(motor_N[i], kWidth));
+        static_cast<uint16_t>(pulse_width(motor_N[i], kFull_N_or_Nm[i], kWidth));
   }
   reg16(kControl) = kUsed << 8 | kUsed;
 }

@@ -24,6 +24,7 @@ constexpr Pin kConsolePin = {kPortB, 10, 7};
 
 constexpr Pin kEncoderPins[6] = {{kPortA, 0, 1}, {kPortA, 1, 1}, {kPortC, 6, 2},
                                  {kPortC, 7, 2}, {kPortB, 6, 2}, {kPortB, 7, 2}};
+constexpr float kFull_N_or_Nm[3] = {10, 10, 10};  // of a motor at full width: yours
 constexpr Pin kPulsePins[3] = {{kPortA, 8, 6}, {kPortA, 9, 6}, {kPortA, 10, 6}};
 constexpr Pin kDirectionPins[3] = {{kPortB, 13}, {kPortB, 14}, {kPortB, 15}};
 constexpr Pin kBreakPin = {kPortB, 12, 6};

@@ -25,6 +25,7 @@ constexpr Pin kConsolePin = {kPortD, 5, 7};
 
 constexpr Pin kEncoderPins[6] = {{kPortA, 5, 1}, {kPortB, 3, 1}, {kPortC, 6, 2},
                                  {kPortC, 7, 2}, {kPortB, 6, 2}, {kPortB, 7, 2}};
+constexpr float kFull_N_or_Nm[3] = {10, 10, 10};  // of a motor at full width: yours
 constexpr Pin kPulsePins[3] = {{kPortE, 9, 1}, {kPortE, 11, 1}, {kPortE, 13, 1}};
 constexpr Pin kDirectionPins[3] = {{kPortE, 10}, {kPortE, 12}, {kPortE, 14}};
 constexpr Pin kBreakPin = {kPortE, 15, 1};

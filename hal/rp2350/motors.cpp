@@ -59,7 +59,7 @@ void motors_state(bool may_push) {
 void motors_write_N(const float (&motor_N)[3]) {
   for (uint32_t i = 0; i < 3; ++i) {
     pin_write(kDirectionPins[i], motor_N[i] < 0);
-    reg(kPwm + kSlice_bytes * i + kCompare) = pulse_width(motor_N[i], kWidth);
+    reg(kPwm + kSlice_bytes * i + kCompare) = pulse_width(motor_N[i], kFull_N_or_Nm[i], kWidth);
   }
 }
 

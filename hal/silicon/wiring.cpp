@@ -2,7 +2,7 @@
 
 #include "registers.hpp"
 
-// Where the wires of registers.hpp go, with the pins' names.
+// Where the wires of registers.hpp go, with the pins' names; and what a motor may make in a test.
 namespace firmtouch::hal {
 namespace {
 
@@ -55,5 +55,7 @@ const char* board_wiring(Wire wire, uint32_t joint) {
   add(".");
   return g_text;
 }
+
+float board_test_force_N(uint32_t joint) { return 0.2f * kFull_N_or_Nm[joint]; }
 
 }  // namespace firmtouch::hal

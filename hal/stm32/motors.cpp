@@ -44,7 +44,7 @@ void motors_state(bool may_push) {
 void motors_write_N(const float (&motor_N)[3]) {
   for (uint32_t i = 0; i < 3; ++i) {
     pin_write(kDirectionPins[i], motor_N[i] < 0);
-    reg(kTimer1 + kTimerCompare + 4 * i) = pulse_width(motor_N[i], kWidth);
+    reg(kTimer1 + kTimerCompare + 4 * i) = pulse_width(motor_N[i], kFull_N_or_Nm[i], kWidth);
   }
 }
 

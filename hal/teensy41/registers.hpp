@@ -13,6 +13,7 @@ constexpr Pin kEncoderPins[6] = {{2, 4}, {3, 5}, {4, 6}, {33, 7}, {31, 36}, {30,
 constexpr CrossbarInput kEncoderInputs[6] = {{3, 6, 0x61C, 0},  {3, 7, 0x620, 0},
                                              {3, 8, 0x624, 0},  {3, 9, 0x628, 0},
                                              {1, 22, 0x638, 0}, {1, 23, 0x63C, 0}};
+constexpr float kFull_N_or_Nm[3] = {10, 10, 10};  // of a motor at full width: yours
 constexpr Pin kPulsePins[3] = {{6, pad_b(10)}, {9, pad_b(11)}, {36, pad_b(18)}};
 constexpr Pulse kPulses[3] = {{2, 2, false}, {2, 2, true}, {6, 3, false}};
 constexpr Pin kDirectionPins[3] = {{10, pad_b(0)}, {11, pad_b(2)}, {12, pad_b(1)}};

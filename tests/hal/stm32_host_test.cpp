@@ -58,9 +58,11 @@ TEST(Stm32_MotorsState_AloneSwitchesThePowerOn) {
 TEST(Stm32_Width_FollowsTheForceAndIsZeroForNaN) {
   registers.clear();
   motors_begin();
-  motors_write_N({5.0f, -2.5f, 0.0f});
+  motors_write_N({5.0f, -5.0f, 0.125f});
   CHECK_EQ(compare(0), kPeriod / 2);
   CHECK_EQ(compare(1), kPeriod / 4);
+  CHECK_EQ(compare(2), kPeriod / 4);
+  motors_write_N({0.0f, 0.0f, 0.0f});
   CHECK_EQ(compare(2), 0u);
   const float infinity = std::numeric_limits<float>::infinity();
   motors_write_N({std::numeric_limits<float>::quiet_NaN(), -infinity, 1e30f});
@@ -122,6 +124,11 @@ TEST(Stm32_Counts_GoOnBeyondSixteenBits) {
   }
   registers[kEncoderTimers[2] + kTimerControl] = 0;  // its clock was lost
   CHECK(!encoders_read(counts));
+}
+
+TEST(Stm32_TestForce_IsAFifthOfFullWidth) {
+  CHECK_EQ(board_test_force_N(0), 0.2f * 10.0f);
+  CHECK_EQ(board_test_force_N(2), 0.2f * 0.5f);
 }
 
 TEST(Stm32_Wiring_NamesThePins) {

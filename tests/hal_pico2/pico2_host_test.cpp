@@ -156,9 +156,11 @@ TEST(Pico2_Counts_AreInvalidIfAMachineStands) {
 
 TEST(Pico2_Width_FollowsTheForceAndIsZeroForNaN) {
   fresh();
-  motors_write_N({5.0f, -2.5f, std::numeric_limits<float>::quiet_NaN()});
+  motors_write_N({5.0f, -5.0f, 0.125f});
   CHECK_EQ(compare(0), kPeriod / 2);
   CHECK_EQ(compare(1), kPeriod / 4);
+  CHECK_EQ(compare(2), kPeriod / 4);
+  motors_write_N({0.0f, 0.0f, std::numeric_limits<float>::quiet_NaN()});
   CHECK_EQ(compare(2), 0u);
   motors_write_N({1e30f, 1, -1});
   CHECK_EQ(compare(0), kPeriod);  // above the top: always high
@@ -176,6 +178,11 @@ TEST(Pico2_Lines_OfATornWireAreFaults) {
   set_input(kStopPin, true);
   set_input(kBreakPin, true);
   CHECK_EQ(motors_lines(), kMotorsEnable | kMotorsEmergencyStop | kMotorsDriveFault);
+}
+
+TEST(Pico2_TestForce_IsAFifthOfFullWidth) {
+  CHECK_EQ(board_test_force_N(0), 0.2f * 10.0f);
+  CHECK_EQ(board_test_force_N(2), 0.2f * 0.5f);
 }
 
 TEST(Pico2_Wiring_NamesThePins) {

@@ -99,9 +99,11 @@ TEST(Teensy41_Width_FollowsTheForceAndIsZeroForNaN) {
                                 kModule + 0x120 + 0x16};
   for (uint32_t submodule = 2; submodule < 4; ++submodule)
     CHECK_EQ(registers16[kModule + 0x60 * submodule + 0x0E], kPeriod - 1);
-  motors_write_N({5.0f, -2.5f, std::numeric_limits<float>::quiet_NaN()});
+  motors_write_N({5.0f, -5.0f, 0.125f});
   CHECK_EQ(registers16[compares[0]], kPeriod / 2);
   CHECK_EQ(registers16[compares[1]], kPeriod / 4);
+  CHECK_EQ(registers16[compares[2]], kPeriod / 4);
+  motors_write_N({0.0f, 0.0f, std::numeric_limits<float>::quiet_NaN()});
   CHECK_EQ(registers16[compares[2]], 0u);
   CHECK_EQ(registers16[kModule + 0x188] & 0xF0Fu, 0xC0Cu);  // runs; the values are taken
   motors_write_N({1, 1, -1e30f});
@@ -136,6 +138,11 @@ TEST(Teensy41_Counts_ComeFromTheCrossbarAndHave32Bits) {
   CHECK_EQ(counts[1], -200);
   registers[0x400FC078] &= ~(3u << 28);  // the third's clock was lost
   CHECK(!encoders_read(counts));
+}
+
+TEST(Teensy41_TestForce_IsAFifthOfFullWidth) {
+  CHECK_EQ(board_test_force_N(0), 0.2f * 10.0f);
+  CHECK_EQ(board_test_force_N(2), 0.2f * 0.5f);
 }
 
 TEST(Teensy41_Wiring_NamesThePins) {
