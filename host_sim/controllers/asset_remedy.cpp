@@ -41,6 +41,12 @@ std::string refusal_text(const link::Identity& host, const link::HelloReply& rep
   char text[1200];
   const uint32_t count = link::explain(host, reply, core::Span<char>(text, sizeof text));
   std::string all(text, count);
+  // With the same build id: a program without some parts lacks their parameters.
+  if ((reply.refused & (link::kRefusedParameterTable | link::kRefusedBuild)) ==
+      link::kRefusedParameterTable)
+    all +=
+        "parameters: the program lacks parts, and so parameters, that this simulator has; for "
+        "lock-step build it with FIRMTOUCH_APP=all, or with `all` and further parts\n";
   if ((reply.refused & link::kRefusedAssetRejected) != 0)
     all += "asset: " + asset_remedy(reply.asset_rule) + "\n";
   return all;

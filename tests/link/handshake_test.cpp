@@ -72,9 +72,12 @@ TEST(Handshake_RejectionText_HasBothValuesAndRemedy) {
   CHECK_LT(explain(host, reply, text), sizeof text - 1);
   CHECK(contains(
       text, "asset CRC: host 0xdeadbeef, controller 0x11112222: load the same .fta file on both"));
-  CHECK(contains(
-      text, "parameter table hash: host 0x0123456789abcdef, controller 0x3333444455556666: build"));
-  CHECK(contains(text, "build id: host 0x0000000000000001, controller 0x777788889999aaaa: build"));
+  CHECK(contains(text,
+                 "parameter table hash: host 0x0123456789abcdef, controller 0x3333444455556666: "
+                 "use the same sources and parts"));
+  CHECK(contains(text,
+                 "build id: host 0x0000000000000001, controller 0x777788889999aaaa: "
+                 "use the same sources and parts"));
 }
 
 TEST(Handshake_RejectedAsset_ReportsRule) {

@@ -5,6 +5,8 @@
 namespace firmtouch::link {
 namespace {
 
+constexpr char kSameSources[] = "use the same sources and parts";
+
 void add_difference(TextWriter& out, const char* what, uint64_t host, uint64_t controller,
                     uint32_t digits, const char* remedy) {
   out.text(what).text(": host ").hex(host, digits).text(", controller ").hex(controller, digits);
@@ -44,11 +46,10 @@ uint32_t explain(const Identity& host, const HelloReply& reply, core::Span<char>
   }
   if ((reply.refused & kRefusedParameterTable) != 0) {
     add_difference(out, "parameter table hash", host.parameter_table_hash,
-                   controller.parameter_table_hash, 16, "build both from the same sources");
+                   controller.parameter_table_hash, 16, kSameSources);
   }
   if ((reply.refused & kRefusedBuild) != 0) {
-    add_difference(out, "build id", host.build_id, controller.build_id, 16,
-                   "build both from the same sources");
+    add_difference(out, "build id", host.build_id, controller.build_id, 16, kSameSources);
   }
   if ((reply.refused & kRefusedMode) != 0) {
     out.text("mode: unknown to the controller: build both from the same release\n");
