@@ -177,7 +177,6 @@ TEST(FarFromTheOriginIsAnsweredLikeBruteForceOrRefused) {
 }
 
 TEST(SliversOfTenMillionToOneAnswerLikeBruteForce) {
-  answers_like_brute_force(baked(obj_of(box({0, 0, 0}, {1, 1, 1e-7}))), 1000);  // a foil
   // Of a hair opposite edges are equally far in float32: a few points get the sign of the other
   // one (mesh/README.md).
   uint32_t wrong = 0;
@@ -191,6 +190,32 @@ TEST(SliversOfTenMillionToOneAnswerLikeBruteForce) {
   answers_like_brute_force(baked(text), 1000);
   text.replace(text.find("1e-7 1\n"), 7, "3e-7 1.0000001\n");
   answers_like_brute_force(baked(text), 1000);
+}
+
+TEST(FoilsAndGapsOfAMillionthAnswerLikeBruteForceAndNarrowerAreRefused) {
+  for (int k = 0; k < 4; ++k) {
+    const double a = 0.9 * k, b = 1.7 * k;
+    const auto turned = [&](Corners corners) {
+      for (Point& p : corners) {
+        p = {p.x * std::cos(a) - p.y * std::sin(a), p.x * std::sin(a) + p.y * std::cos(a), p.z};
+        p = {p.x * std::cos(b) - p.z * std::sin(b), p.y, p.x * std::sin(b) + p.z * std::cos(b)};
+      }
+      return corners;
+    };
+    const auto foil = [&](double thick) {
+      return baked(obj_of(turned(box({0, 0, 0}, {1, 1, thick}))));
+    };
+    const auto apart = [&](double gap) {
+      return baked(obj_of(turned(box({0, 0, 0}, {1, 1, 1}))) +
+                   obj_of(turned(box({1 + gap, 0, 0}, {2, 1, 1})), 8));
+    };
+    answers_like_brute_force(foil(1.42e-6), 500);
+    answers_like_brute_force(apart(2.45e-6), 500);
+    for (const double part : {0.01, 0.05, 0.1, 0.2}) {
+      CHECK(foil(part * 1.42e-6).problem.find("sign is ambiguous") != std::string::npos);
+      CHECK(apart(part * 2.45e-6).problem.find("sign is ambiguous") != std::string::npos);
+    }
+  }
 }
 
 TEST(NestedShellsAnswerLikeBruteForce) {

@@ -53,10 +53,12 @@ BoxTree::BoxTree(std::vector<Box> items) : items_(std::move(items)) {
   std::sort(order.begin(), order.end());
   order_.reserve(order.size());
   for (const auto& [code, number] : order) order_.push_back(number);
+  std::vector<Box> ordered(items_.size());
+  for (size_t i = 0; i < ordered.size(); ++i) ordered[i] = items_[order_[i]];
+  items_ = std::move(ordered);
   while (size_t{leaves_} * kLeafItems < items_.size()) leaves_ *= 2;
   nodes_.assign(2 * size_t{leaves_} - 1, kEmpty);
-  for (size_t i = 0; i < items_.size(); ++i)
-    grow(nodes_[leaves_ - 1 + i / kLeafItems], items_[order_[i]]);
+  for (size_t i = 0; i < items_.size(); ++i) grow(nodes_[leaves_ - 1 + i / kLeafItems], items_[i]);
   for (size_t n = leaves_ - 1; n-- > 0;) {
     grow(nodes_[n], nodes_[2 * n + 1]);
     grow(nodes_[n], nodes_[2 * n + 2]);
@@ -66,18 +68,17 @@ BoxTree::BoxTree(std::vector<Box> items) : items_(std::move(items)) {
 void BoxTree::overlaps(const Box& box, std::vector<uint32_t>& found) const {
   uint32_t stack[64];  // one a level and one more; there are at most 32 levels
   uint32_t size = 0;
-  stack[size++] = 0;
+  if (overlap(nodes_[0], box)) stack[size++] = 0;
   while (size > 0) {
     const uint32_t node = stack[--size];
-    if (!overlap(nodes_[node], box)) continue;
     if (node + 1 < leaves_) {
-      stack[size++] = 2 * node + 2;
-      stack[size++] = 2 * node + 1;
+      if (overlap(nodes_[2 * node + 2], box)) stack[size++] = 2 * node + 2;
+      if (overlap(nodes_[2 * node + 1], box)) stack[size++] = 2 * node + 1;
       continue;
     }
     const size_t first = size_t{node + 1 - leaves_} * kLeafItems;
     for (size_t i = first; i < std::min(first + kLeafItems, items_.size()); ++i) {
-      if (overlap(items_[order_[i]], box)) found.push_back(order_[i]);
+      if (overlap(items_[i], box)) found.push_back(order_[i]);
     }
   }
 }

@@ -25,8 +25,8 @@ class BoxTree {
  private:
   static constexpr uint32_t kLeafItems = 4;
 
-  std::vector<Box> items_;
-  std::vector<uint32_t> order_;  // the items' numbers, as the leaves hold them
+  std::vector<Box> items_;       // as the leaves hold them
+  std::vector<uint32_t> order_;  // their numbers
   // Children of i: 2 i + 1 and 2 i + 2; the last leaves_ of them are leaves.
   std::vector<Box> nodes_;
   uint32_t leaves_ = 1;

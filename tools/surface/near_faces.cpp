@@ -166,11 +166,18 @@ Box NearFaces::directions_of(uint32_t f, uint32_t hub) const {
 }
 
 void NearFaces::above(uint32_t f, std::vector<uint32_t>& near) const {
-  const Box box = box_of(f);
+  within(f, 0, near);
+  keep_above(f, near);
+}
+
+void NearFaces::within(uint32_t f, double margin_m, std::vector<uint32_t>& near) const {
+  const Point margin{margin_m, margin_m, margin_m};
+  Box box = box_of(f);
+  box = {box.low - margin, box.high + margin};
   near.clear();
-  std::vector<uint32_t> found;
-  tree_.overlaps(box, found);
-  for (const uint32_t item : found) {
+  found_.clear();
+  tree_.overlaps(box, found_);
+  for (const uint32_t item : found_) {
     if (item < loose_.size()) {
       near.push_back(loose_[item]);
       continue;
@@ -184,6 +191,9 @@ void NearFaces::above(uint32_t f, std::vector<uint32_t>& near) const {
       star.boxes.overlaps(box, near);
     for (size_t i = first; i < near.size(); ++i) near[i] = star.faces[near[i]];
   }
+}
+
+void NearFaces::keep_above(uint32_t f, std::vector<uint32_t>& near) const {
   const Triangle face(surface_, surface_.faces[f]);
   const int axis = axis_of(face.normal);
   const Shape shape(face, axis);

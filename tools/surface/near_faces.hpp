@@ -16,6 +16,11 @@ class NearFaces {
 
   /// Sets `near` to the faces above `f` that may meet it, in a fixed order.
   void above(uint32_t f, std::vector<uint32_t>& near) const;
+  /// The same in two steps. Sets `near` to the faces whose boxes come within `margin_m` of that of
+  /// `f`, in a fixed order; of many about one vertex some may lack. Then keeps those above `f` that
+  /// may meet it.
+  void within(uint32_t f, double margin_m, std::vector<uint32_t>& near) const;
+  void keep_above(uint32_t f, std::vector<uint32_t>& near) const;
 
  private:
   // Many faces about one vertex, the hub. Their boxes all overlap there. Their directions from it
@@ -34,6 +39,7 @@ class NearFaces {
   std::vector<Star> stars_;
   std::vector<uint32_t> star_of_, loose_;  // of each face, kNone: none; faces of none
   BoxTree tree_;                           // of the loose faces, then of the stars
+  mutable std::vector<uint32_t> found_;
 };
 
 }  // namespace firmtouch::tools

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "surface/check/mending.hpp"
+#include "surface/check/near_sheets.hpp"
 #include "surface/edges.hpp"
 #include "surface/exact_side.hpp"
 #include "surface/near_faces.hpp"
@@ -66,21 +67,17 @@ enum class Where { kElsewhere, kOnEdge, kInside };
 
 class Touches {
  public:
-  explicit Touches(const Surface& surface)
-      : surface_(surface), mates_(Edges(surface.faces).mates()), half_of_(surface.vertices.size()) {
+  Touches(const Surface& surface, const std::vector<uint32_t>& mates)
+      : surface_(surface), mates_(mates), half_of_(surface.vertices.size()) {
     for (uint32_t h = 0; h < mates_.size(); ++h) half_of_[start_of(surface.faces, h)] = h;
   }
 
-  void find() {
-    const NearFaces near_faces(surface_);
-    std::vector<uint32_t> near;
-    for (uint32_t f = 0; f < surface_.faces.size(); ++f) {
-      near_faces.above(f, near);
-      for (const uint32_t g : near) {
-        for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g), look_at_corner(g, k, f);
-        for (uint32_t k = 0; k < 3; ++k) look_at_edge(f, k, g), look_at_edge(g, k, f);
-        if (has_same_places(f, g)) faces.insert(f);
-      }
+  // `near`: the faces above f that may meet it.
+  void look_at(uint32_t f, const std::vector<uint32_t>& near) {
+    for (const uint32_t g : near) {
+      for (uint32_t k = 0; k < 3; ++k) look_at_corner(f, k, g), look_at_corner(g, k, f);
+      for (uint32_t k = 0; k < 3; ++k) look_at_edge(f, k, g), look_at_edge(g, k, f);
+      if (has_same_places(f, g)) faces.insert(f);
     }
   }
 
@@ -224,14 +221,24 @@ class Touches {
   }
 
   const Surface& surface_;
-  std::vector<uint32_t> mates_, half_of_;  // half_of_: of each vertex, one that leaves it
+  const std::vector<uint32_t>& mates_;
+  std::vector<uint32_t> half_of_;  // of each vertex, one that leaves it
 };
 
 }  // namespace
 
 void refuse_touches(const Surface& surface, CheckReport& report) {
-  Touches touches(surface);
-  touches.find();
+  const std::vector<uint32_t> mates = Edges(surface.faces).mates();
+  const NearFaces near_faces(surface);
+  Touches touches(surface, mates);
+  NearSheets sheets(surface, near_faces, mates);
+  std::vector<uint32_t> near;
+  for (uint32_t f = 0; f < surface.faces.size(); ++f) {
+    near_faces.within(f, sheets.unresolved_m(), near);
+    sheets.look_at(f, near);
+    near_faces.keep_above(f, near);
+    touches.look_at(f, near);
+  }
   const size_t corners = touches.corners.size(), edges = touches.edges.size();
   if (!touches.faces.empty()) {
     report.refused.push_back(
@@ -240,7 +247,10 @@ void refuse_touches(const Surface& surface, CheckReport& report) {
         named_face(surface, *touches.faces.begin()) +
         ": the sign is ambiguous there; unite the parts in a modelling program");
   }
-  if (corners + edges == 0) return;
+  if (corners + edges == 0) {
+    if (touches.faces.empty()) sheets.refuse(report);
+    return;
+  }
   const auto edge = touches.edges.cbegin();
   const std::string first = corners != 0
                                 ? named_vertex(surface, touches.corners.cbegin()->first)

@@ -46,7 +46,7 @@ void find_topology_defects(const Surface& surface, std::vector<std::string>& def
 /// outward.
 void refuse_contacts(const Surface& surface, CheckReport& report);
 /// Of these, corners and edges that touch the surface elsewhere, of one piece too, without
-/// rounding.
+/// rounding; and sheets of opposite orientation that are nearer than float32 resolves.
 /// Pre: coordinates are finite and below 2^24 m.
 void refuse_touches(const Surface& surface, CheckReport& report);
 void drop_unused_vertices(Surface& surface, CheckReport& report);
