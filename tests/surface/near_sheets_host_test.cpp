@@ -1,5 +1,5 @@
 // Sheets of opposite orientation, nearer than float32 resolves: rejected, because a query
-// cannot resolve which of them is nearer, and they give opposite signs.
+// cannot resolve which of them is nearer, and they give opposite signs. Cavities near a wall.
 #include "shapes.hpp"
 #include "surface/check/check.hpp"
 
@@ -22,6 +22,11 @@ void add(Surface& to, const std::vector<Point>& points, const std::vector<Face>&
   append(to, numbered(vertices, faces));
 }
 
+std::vector<Face> inside_out(std::vector<Face> faces) {
+  for (Face& face : faces) turn(face);
+  return faces;
+}
+
 std::vector<Point> box_points(Point low, Point high) {
   std::vector<Point> points;
   for (int k = 0; k < 8; ++k)
@@ -32,6 +37,9 @@ std::vector<Point> box_points(Point low, Point high) {
 
 void add_box(Surface& to, Point low, Point high, int rotation) {
   add(to, box_points(low, high), cube().faces, rotation);
+}
+void add_cavity(Surface& to, Point low, Point high, int rotation) {
+  add(to, box_points(low, high), inside_out(cube().faces), rotation);
 }
 
 // Two boxes beside each other. Diagonal 2.45.
@@ -124,6 +132,45 @@ TEST(SolidsThatCrossAreTakenAsBefore) {
     add_box(surface, {0.5, 0.2, 0.3}, {1.5, 0.77, 0.71}, rotation);
     CHECK(check(surface).usable());
     CHECK(check(ridge_over_plate(-0.1, rotation)).usable());
+  }
+}
+
+TEST(ACavityNearTheWallIsNeverFilled) {
+  for (int rotation = 0; rotation < kRotations; ++rotation) {
+    for (const double gap_m : {1e-10, 3e-10, 1e-9, 3e-9, 1e-8, 1e-7}) {
+      Surface surface;
+      add_box(surface, {0, 0, 0}, {1, 1, 1}, rotation);
+      add_cavity(surface, {0.2, 0.3, 0.4}, {1 - gap_m, 0.7, 0.8}, rotation);
+      const CheckReport report = check(surface);
+      CHECK(!says(report.mended, "inside out"));
+      CHECK(!report.usable());
+    }
+    // With one corner near it, an octahedron.
+    for (const double gap_m : {1e-10, 1e-9, 1e-8, 1e-7, 1e-6}) {
+      Surface surface;
+      add_box(surface, {0, 0, 0}, {1, 1, 1}, rotation);
+      add(surface,
+          {{0.5, 0.5, 0.6},
+           {1 - gap_m, 0.5, 0.6},
+           {0.75, 0.3, 0.6},
+           {0.75, 0.7, 0.6},
+           {0.75, 0.5, 0.3},
+           {0.75, 0.5, 0.9}},
+          inside_out(faces_of("042 025 034 053 124 152 143 135")), rotation);
+      const CheckReport report = check_and_mend(surface, {});
+      CHECK(!says(report.mended, "inside out"));
+      if (report.usable())
+        CHECK(std::fabs(winding_by_angles(surface, rotated({0.75, 0.5, 0.6}, rotation))) < 0.5);
+    }
+  }
+}
+
+TEST(ACavityInsideOutNearTheWallIsStillTurned) {
+  for (int rotation = 0; rotation < kRotations; ++rotation) {
+    Surface surface;
+    add_box(surface, {0, 0, 0}, {1, 1, 1}, rotation);
+    add_box(surface, {0.2, 0.3, 0.4}, {1 - 3e-9, 0.7, 0.8}, rotation);
+    CHECK(says(check(surface).mended, "turned 1 piece of 12 faces wound inside out"));
   }
 }
 

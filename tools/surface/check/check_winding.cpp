@@ -1,11 +1,18 @@
 #include <algorithm>
+#include <memory>
 
+#include "surface/box_tree.hpp"
 #include "surface/check/mending.hpp"
+#include "surface/extent.hpp"
 #include "surface/point.hpp"
+#include "surface/triangle_distance.hpp"
 #include "surface/winding_number.hpp"
 
 namespace firmtouch::tools {
 namespace {
+
+// Of the diagonal. Reading the coordinates may take 1.5e-7 off at each of two shells.
+constexpr double kReading = 3e-7;
 
 void turn(Face& face) { std::swap(face[1], face[2]); }
 
@@ -13,6 +20,11 @@ double volume6(const Surface& surface, const Face& face, Point origin) {
   return dot(to_point(surface.vertices[face[0]]) - origin,
              cross(to_point(surface.vertices[face[1]]) - origin,
                    to_point(surface.vertices[face[2]]) - origin));
+}
+
+void grow(Box& box, Point p) {
+  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
+  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
 }
 
 struct Shell {
@@ -32,21 +44,17 @@ std::vector<Shell> measure(const Surface& surface, const std::vector<uint32_t>& 
       shell.box.low = shell.box.high = to_point(surface.vertices[surface.faces[f][0]]);
     }
     shell.turned += turned[f] ? 1u : 0u;
-    for (const uint32_t v : surface.faces[f]) {
-      const Point p = to_point(surface.vertices[v]);
-      Box& box = shell.box;
-      box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-      box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-    }
+    for (const uint32_t v : surface.faces[f]) grow(shell.box, to_point(surface.vertices[v]));
     shell.volume6 += volume6(surface, surface.faces[f],
                              to_point(surface.vertices[surface.faces[shell.first_face][0]]));
   }
   return shells;
 }
 
-bool within(const Box& a, const Box& b) {
-  return a.low.x > b.low.x && a.low.y > b.low.y && a.low.z > b.low.z && a.high.x < b.high.x &&
-         a.high.y < b.high.y && a.high.z < b.high.z;
+bool within(const Box& a, const Box& b, double margin) {
+  return a.low.x > b.low.x - margin && a.low.y > b.low.y - margin && a.low.z > b.low.z - margin &&
+         a.high.x < b.high.x + margin && a.high.y < b.high.y + margin &&
+         a.high.z < b.high.z + margin;
 }
 
 // The faces of one shell with their own vertices, so that a query costs by its own size.
@@ -83,12 +91,80 @@ class ShellsAlone {
   std::vector<uint32_t> index_;  // of the vertices in the part at hand
 };
 
-// In how many other shells each shell lies with all its vertices: where that is odd it bounds a
-// cavity. Shells that cross one another are not nested.
-std::vector<uint32_t> nesting(const Surface& surface, const std::vector<uint32_t>& component,
-                              const std::vector<Shell>& shells) {
+// A shell and another one around it.
+class Around {
+ public:
+  Around(const Surface& shell, double reading_m)
+      : shell_(shell), winding_(shell_, {}), reading_m_(reading_m) {}
+
+  bool has_inside(Point p) const { return winding_.at(p) != 0; }
+
+  // Whether rounding may have moved the point through the shell.
+  bool is_near(Point p) {
+    if (!faces_) faces_ = std::make_unique<BoxTree>(boxes());
+    const Point by{reading_m_, reading_m_, reading_m_};
+    found_.clear();
+    faces_->overlaps({p - by, p + by}, found_);
+    return std::any_of(found_.begin(), found_.end(), [&](uint32_t f) {
+      return distance2_to_triangle(p, corner(f, 0), corner(f, 1), corner(f, 2)) <=
+             reading_m_ * reading_m_;
+    });
+  }
+
+ private:
+  Point corner(uint32_t f, uint32_t k) const {
+    return to_point(shell_.vertices[shell_.faces[f][k]]);
+  }
+  std::vector<Box> boxes() const {
+    std::vector<Box> boxes;
+    for (uint32_t f = 0; f < shell_.faces.size(); ++f) {
+      boxes.push_back({corner(f, 0), corner(f, 0)});
+      for (uint32_t k = 1; k < 3; ++k) grow(boxes.back(), corner(f, k));
+    }
+    return boxes;
+  }
+
+  Surface shell_;
+  WindingNumber winding_;
+  double reading_m_;
+  std::unique_ptr<BoxTree> faces_;  // made where a vertex is not inside
+  std::vector<uint32_t> found_;
+};
+
+enum class Nested { kNo, kYes, kUnsure };
+
+// Whether all vertices of the faces lie inside. Those that rounding may have moved through the
+// shell do not count; where no other is left, nothing is known.
+Nested nested(const Surface& surface, const std::vector<uint32_t>& faces, Around& around) {
+  bool all_inside = true, any_clear = false;
+  for (const uint32_t f : faces) {
+    for (const uint32_t v : surface.faces[f]) {
+      const Point p = to_point(surface.vertices[v]);
+      if (around.has_inside(p)) continue;
+      if (!around.is_near(p)) return Nested::kNo;
+      all_inside = false;
+    }
+  }
+  if (all_inside) return Nested::kYes;
+  for (const uint32_t f : faces)
+    for (const uint32_t v : surface.faces[f])
+      any_clear = any_clear || !around.is_near(to_point(surface.vertices[v]));
+  return any_clear ? Nested::kYes : Nested::kUnsure;
+}
+
+struct Nesting {
+  uint32_t depth = 0;  // in how many other shells it lies: where that is odd it bounds a cavity
+  bool is_sure = true;
+};
+
+// Shells that cross one another are not nested.
+std::vector<Nesting> nesting(const Surface& surface, const std::vector<uint32_t>& component,
+                             const std::vector<Shell>& shells) {
   ShellsAlone parts(surface, component, shells.size());
-  std::vector<uint32_t> depth(shells.size(), 0), by_low(shells.size());
+  std::vector<Nesting> nestings(shells.size());
+  std::vector<uint32_t> by_low(shells.size());
+  const Extent extent = extent_of(surface);
+  const double reading_m = kReading * length(extent.high - extent.low);
   for (uint32_t s = 0; s < by_low.size(); ++s) by_low[s] = s;
   const auto low = [&](uint32_t s) { return shells[s].box.low.x; };
   std::sort(by_low.begin(), by_low.end(), [&](uint32_t a, uint32_t b) {
@@ -96,24 +172,20 @@ std::vector<uint32_t> nesting(const Surface& surface, const std::vector<uint32_t
   });
   for (uint32_t outer = 0; outer < shells.size(); ++outer) {
     std::vector<uint32_t> candidates;
-    auto next = std::upper_bound(by_low.begin(), by_low.end(), low(outer),
+    auto next = std::upper_bound(by_low.begin(), by_low.end(), low(outer) - reading_m,
                                  [&](double x, uint32_t s) { return x < low(s); });
     for (; next != by_low.end() && low(*next) < shells[outer].box.high.x; ++next)
-      if (within(shells[*next].box, shells[outer].box)) candidates.push_back(*next);
+      if (*next != outer && within(shells[*next].box, shells[outer].box, reading_m))
+        candidates.push_back(*next);
     if (candidates.empty()) continue;
-    const Surface alone = parts.alone(outer);
-    const WindingNumber around(alone, {});
+    Around around(parts.alone(outer), reading_m);
     for (const uint32_t s : candidates) {
-      const auto is_inside = [&](uint32_t f) {
-        const Face& face = surface.faces[f];
-        return std::all_of(face.begin(), face.end(), [&](uint32_t v) {
-          return around.at(to_point(surface.vertices[v])) != 0;
-        });
-      };
-      if (std::all_of(parts.faces(s).begin(), parts.faces(s).end(), is_inside)) ++depth[s];
+      const Nested is_nested = nested(surface, parts.faces(s), around);
+      if (is_nested == Nested::kYes) ++nestings[s].depth;
+      if (is_nested == Nested::kUnsure) nestings[s].is_sure = false;
     }
   }
-  return depth;
+  return nestings;
 }
 
 }  // namespace
@@ -174,9 +246,10 @@ void wind_outward(Surface& surface, const std::vector<uint32_t>& component, uint
   std::vector<Shell> shells = measure(surface, component, components, turned);
   std::vector<bool> inverted(components, false);
   if (is_closed) {
-    const std::vector<uint32_t> depth = nesting(surface, component, shells);
+    const std::vector<Nesting> nestings = nesting(surface, component, shells);
     for (uint32_t s = 0; s < components; ++s) {
-      const bool is_cavity = depth[s] % 2 == 1;
+      if (!nestings[s].is_sure) continue;  // as the file has it
+      const bool is_cavity = nestings[s].depth % 2 == 1;
       inverted[s] = is_cavity ? shells[s].volume6 > 0 : shells[s].volume6 < 0;
       if (inverted[s]) shells[s].turned = shells[s].faces - shells[s].turned;
     }
