@@ -122,7 +122,9 @@ TEST(ClockOfAnotherRate_IsABrokenClockAtThe32ndTick) {
   for (uint32_t i = 1; i <= 40; ++i) CHECK_EQ(clock.after(799).faults != 0, i >= 32);
   CHECK_EQ(clock.after(799).faults, servo::kFaultClock);
   CHECK_EQ(clock.after(801).faults, 0u);
+  for (uint32_t i = 1; i <= 32; ++i) (void)clock.after(799);
   servo::clear(clock.state);
+  CHECK_EQ(clock.after(799).faults, 0u);
   uint32_t random = 1;
   for (int i = 0; i < 1000000; ++i) {
     random = random * 1664525u + 1013904223u;
@@ -139,6 +141,22 @@ TEST(ThreeOverloadedTicksOfTen_AreAnOverload) {
         return clock.after(1000, is_overloaded ? work_us : 500).faults;
       });
     }
+  }
+}
+
+TEST(MissesOfOneKind_AreForgottenAfterTenTicks_AndAreNoOthers) {
+  const auto missed = [](Clock& clock, uint32_t fault) {
+    const uint32_t us = fault == servo::kFaultDeadline ? 1501
+                        : fault == servo::kFaultClock  ? 499
+                                                       : 1000;
+    return clock.after(us, fault == servo::kFaultOverload ? 950 : 0).faults;
+  };
+  const uint32_t faults[] = {servo::kFaultDeadline, servo::kFaultClock, servo::kFaultOverload};
+  for (const uint32_t fault : faults) {
+    Clock clock;
+    (void)clock.after(0);
+    for (uint32_t i = 1; i <= 3; ++i) CHECK_EQ(missed(clock, fault), i == 3 ? fault : 0u);
+    for (uint32_t i = 1; i <= 40; ++i) CHECK_EQ(clock.after(1000).faults, i < 8 ? fault : 0u);
   }
 }
 

@@ -9,14 +9,26 @@ constexpr uint32_t kJump_us = 1000000;
 constexpr float kStall = 4.0f;  // periods: the force of one tick was held for too long
 constexpr float kEarly = 0.5f;  // periods
 constexpr float kShort = 0.8f;  // periods
-constexpr uint32_t kWindowMask = (1u << kTimingWindow) - 1;
 
-// Takes a tick into a history. Result: whether it has too many misses.
-bool too_many(uint16_t& history, bool is_missed) {
-  history = static_cast<uint16_t>(history << 1 | (is_missed ? 1 : 0));
-  uint32_t misses = 0;
-  for (uint32_t word = history & kWindowMask; word != 0; word &= word - 1) ++misses;
-  return misses >= kTimingMisses;
+// Fields of ClockState::misses, of kTimingWindow bits each, and what their last bits begin with.
+constexpr uint32_t kLateBit = 1u, kEarlyBit = kLateBit << kTimingWindow,
+                   kOverloadBit = kEarlyBit << kTimingWindow;
+constexpr uint32_t kFirstBits = kLateBit | kEarlyBit | kOverloadBit;
+constexpr uint32_t kFieldMask = kEarlyBit - 1;
+constexpr uint32_t kUsedBits = (kOverloadBit << kTimingWindow) - 1;
+
+bool too_many(uint32_t misses) {
+  uint32_t count = 0;
+  for (uint32_t word = misses & kFieldMask; word != 0; word &= word - 1) ++count;
+  return count >= kTimingMisses;
+}
+
+uint32_t faults_of(uint32_t misses) {
+  uint32_t faults = 0;
+  if (too_many(misses)) faults |= kFaultDeadline;
+  if (too_many(misses >> kTimingWindow)) faults |= kFaultClock;
+  if (too_many(misses >> 2 * kTimingWindow)) faults |= kFaultOverload;
+  return faults;
 }
 
 }  // namespace
@@ -32,29 +44,25 @@ ClockReading watch_clock(ClockState& state, uint32_t clock_us, uint32_t last_wor
     return reading;
   }
   const bool overloaded = !(static_cast<float>(last_work_us) * 1e-6f < kMaxLoad * period_s);
-  if (too_many(state.overload_history, overloaded)) reading.faults = kFaultOverload;
-  if (elapsed_us >= kJump_us) {
-    reading.faults |= kFaultClock;
-    return reading;
+  uint32_t missed = overloaded ? kOverloadBit : 0;
+  if (elapsed_us < kJump_us) {
+    const float elapsed_s = static_cast<float>(elapsed_us) * 1e-6f;
+    const bool early = !(elapsed_s >= kEarly * period_s);
+    const bool stalled = !(elapsed_s <= kStall * period_s);
+    reading.late = !(elapsed_s <= late_ratio * period_s);
+    missed |= (reading.late ? kLateBit : 0) | (early ? kEarlyBit : 0);
+    state.shorts = elapsed_s < kShort * period_s ? state.shorts + 1 : 0;
+    if (state.shorts >= kMaxShorts) reading.faults = kFaultClock;
+    if (stalled) reading.faults |= kFaultDeadline;
+    reading.dt_s = early ? kEarly * period_s : stalled ? kStall * period_s : elapsed_s;
+  } else {
+    reading.faults = kFaultClock;
   }
-  const float elapsed_s = static_cast<float>(elapsed_us) * 1e-6f;
-  const bool early = !(elapsed_s >= kEarly * period_s);
-  const bool stalled = !(elapsed_s <= kStall * period_s);
-  reading.late = !(elapsed_s <= late_ratio * period_s);
-  const bool is_lost = too_many(state.late_history, reading.late);
-  if (stalled || is_lost) reading.faults |= kFaultDeadline;
-  state.short_history = state.short_history << 1 | (elapsed_s < kShort * period_s ? 1u : 0u);
-  const bool is_broken = too_many(state.early_history, early);
-  if (is_broken || state.short_history == UINT32_MAX) reading.faults |= kFaultClock;
-  reading.dt_s = early ? kEarly * period_s : stalled ? kStall * period_s : elapsed_s;
+  state.misses = (state.misses << 1 & kUsedBits & ~kFirstBits) | missed;
+  if (state.misses != 0) reading.faults |= faults_of(state.misses);
   return reading;
 }
 
-void clear(ClockState& state) {
-  state.late_history = 0;
-  state.early_history = 0;
-  state.short_history = 0;
-  state.overload_history = 0;
-}
+void clear(ClockState& state) { state.misses = state.shorts = 0; }
 
 }  // namespace firmtouch::servo

@@ -7,16 +7,15 @@ namespace firmtouch::servo {
 // the measured time is used, without a fault.
 constexpr uint32_t kTimingWindow = 10;
 constexpr uint32_t kTimingMisses = 3;
+constexpr uint32_t kMaxShorts = 32;  // of another rate than the parameter's
 // Periods. From here on the main loop has next to no time: a tick is entered and left in the rest.
 constexpr float kMaxLoad = 0.9f;
 
 struct ClockState {
   bool started = false;
-  uint16_t late_history = 0;  // bit k: the tick k ago was late
-  uint16_t early_history = 0;
-  uint16_t overload_history = 0;
-  uint32_t short_history = 0;
   uint32_t last_us = 0;
+  uint32_t misses = 0;  // kTimingWindow bits each: late, early, overloaded; bit k: the tick k ago
+  uint32_t shorts = 0;  // short ticks in succession
 };
 
 struct ClockReading {
@@ -31,8 +30,8 @@ struct ClockReading {
 ///   late:  more than late_ratio periods. 3 of 10: kFaultDeadline. Four periods or more: at once.
 ///   early: less than half a period (a tick that came twice, a clock that stands).
 ///          3 of 10: kFaultClock.
-///   short: less than 0.8 periods, as where the timer's rate is not that of the parameter. 32 in
-///          succession: kFaultClock.
+///   short: less than 0.8 periods, as where the timer's rate is not that of the parameter.
+///          kMaxShorts in succession: kFaultClock.
 ///   overloaded: the tick before took kMaxLoad periods or more. 3 of 10: kFaultOverload.
 ///   a second or more, which a clock set back also looks like: kFaultClock at once.
 /// Pre: period_s and late_ratio within their ranges of params; others give finite results too.
