@@ -15,6 +15,13 @@ namespace {
 // far below the next sheet.
 constexpr double kBeside = 1e-7;
 
+// The triangles beside a thin one measure its edges by themselves, so that its height does not
+// separate these where two distances, each off by 2e-7 diagonals, may differ as much. By how much
+// its normals may be wrong all the same: then only for queries within 0.15 rad of a side's normal,
+// for which the distances to its edges differ by the whole height.
+constexpr double kUnresolved = 5e-7;  // of the diagonal
+constexpr double kMaxConfused_rad = 0.15;
+
 void take(SignProof::Kind& kind, uint32_t feature, double sine, double min_rad,
           const std::vector<bool>& excused) {
   if (!excused.empty() && excused[feature]) return;
@@ -54,13 +61,15 @@ bool agrees(const WindingNumber& winding, Point at, bool reported_outside) {
 class Confusion {
  public:
   Confusion(const Surface& surface, const ExactNormals& exact, const Pseudonormals& stored)
-      : surface_(surface), exact_(exact), stored_(stored), within_m_(confusion_m(surface)) {}
+      : surface_(surface),
+        exact_(exact),
+        stored_(stored),
+        within_m_(confusion_m(surface)),
+        unresolved_m_(kUnresolved * diagonal_m(surface.vertices)) {}
 
-  bool is_thin(uint32_t f) const {
-    const Face& face = surface_.faces[f];
-    const Point base = corner(face, 1) - corner(face, 0), side = corner(face, 2) - corner(face, 0);
-    return !(length(cross(base, side)) > within_m_ * length(base));
-  }
+  bool is_thin(uint32_t f) const { return is_lower(f, within_m_); }
+  // Whether distances do not separate its edges.
+  bool is_unresolved(uint32_t f) const { return is_lower(f, unresolved_m_); }
 
   // Whether the firmware's own arithmetic (mesh/triangle.hpp) turns the height of the triangle, by
   // which it separates the features.
@@ -106,6 +115,11 @@ class Confusion {
   Point corner(const Face& face, uint32_t k) const {
     return to_point(surface_.vertices[face[k % 3]]);
   }
+  bool is_lower(uint32_t f, double height_m) const {
+    const Face& face = surface_.faces[f];
+    const Point base = corner(face, 1) - corner(face, 0), side = corner(face, 2) - corner(face, 0);
+    return !(length(cross(base, side)) > height_m * length(base));
+  }
 
   void collect(uint32_t f, Point along, std::vector<Point>& sides) const {
     std::vector<uint32_t> ring{f}, seen{f};
@@ -129,7 +143,7 @@ class Confusion {
   const Surface& surface_;
   const ExactNormals& exact_;
   const Pseudonormals& stored_;
-  double within_m_;
+  double within_m_, unresolved_m_;
 };
 
 }  // namespace
@@ -152,7 +166,9 @@ SignProof prove_signs(const Surface& surface, const ExactNormals& exact,
     const bool is_thin = confusion.is_thin(f);
     const double thin_margin = is_thin ? confusion.thin_margin(f) : 1;
     if (!(thin_margin >= min_rad)) proof.slivers.push_back(f);
-    if (is_thin && confusion.loses_height(f)) {
+    const bool is_confused =
+        is_thin && !(thin_margin >= -kMaxConfused_rad) && confusion.is_unresolved(f);
+    if (is_confused || (is_thin && confusion.loses_height(f))) {
       // Not excused where it crosses others: its sides would reach far beyond the place.
       take(proof.faces, f, thin_margin, min_rad, {});
     } else {

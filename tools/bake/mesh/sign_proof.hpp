@@ -23,7 +23,8 @@ struct SignProof {
   };
   Kind faces, edges, vertices;
   // Faces so thin that float32 may take an edge of theirs for another, which gives another sign.
-  // They are weak only where it also loses their height, by which it separates the edges.
+  // They are weak where that sign is wrong for more than a few queries, or where it also loses
+  // their height, by which it separates the edges.
   std::vector<uint32_t> slivers;
 
   bool holds() const { return faces.weak.empty() && edges.weak.empty() && vertices.weak.empty(); }
