@@ -40,6 +40,10 @@ AShortStepBesideALongPieceIsSaid() {
   says 'row 2 is 8.3e-07 m from the next one, beside a piece of' 'may lie up to 0.015 m' 'leave one of them out'
   bake c.csv -o a.fta
   case $err in *'leave one'*) fail "$err" ;; esac
+  # The step that closes a ring, from row 3.
+  printf 'x,y,z\n0.7,0.1,0.3\n1.1,0.9,0.2\n0.70000031,0.10000077,0.2999999\n0.7,0.1,0.3\n' >c.csv
+  bake c.csv -o a.fta --smooth
+  says 'closed smooth curve' 'row 3 is 8.3e-07 m from the next one'
   printf 'x,y,z\n0,0,0\n0.7,0.1,0.3\n0.701,0.103,0.298\n1.1,0.9,0.2\n' >c.csv
   bake c.csv -o a.fta --smooth
   case $err in *'leave one'*) fail "$err" ;; esac

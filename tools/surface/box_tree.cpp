@@ -10,13 +10,6 @@ namespace {
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr Box kEmpty{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
-void grow(Box& box, const Box& by) {
-  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y),
-             std::min(box.low.z, by.low.z)};
-  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y),
-              std::max(box.high.z, by.high.z)};
-}
-
 bool overlap(const Box& a, const Box& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
          a.low.z <= b.high.z && b.low.z <= a.high.z;
@@ -44,6 +37,13 @@ uint64_t morton(const Box& box, const Box& all) {
 }
 
 }  // namespace
+
+void grow(Box& box, const Box& by) {
+  box.low = {std::min(box.low.x, by.low.x), std::min(box.low.y, by.low.y),
+             std::min(box.low.z, by.low.z)};
+  box.high = {std::max(box.high.x, by.high.x), std::max(box.high.y, by.high.y),
+              std::max(box.high.z, by.high.z)};
+}
 
 BoxTree::BoxTree(std::vector<Box> items) : items_(std::move(items)) {
   Box all = kEmpty;

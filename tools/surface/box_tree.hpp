@@ -10,6 +10,9 @@ struct Box {
   Point low, high;
 };
 
+/// Makes `box` contain `by`.
+void grow(Box& box, const Box& by);
+
 /// Boxes of many items, found by overlap. For the offline checks: a complete binary tree over the
 /// items in Morton order.
 /// Bounds: building O(n log n), no recursion.

@@ -10,7 +10,8 @@ constexpr float kStall = 4.0f;  // periods: the force of one tick was held for t
 constexpr float kEarly = 0.5f;  // periods
 constexpr float kShort = 0.8f;  // periods
 
-// Fields of ClockState::misses, of kTimingWindow bits each, and what their last bits begin with.
+// ClockState::misses has a field of kTimingWindow bits for each kind of miss. Its lowest bit is of
+// this tick.
 constexpr uint32_t kLateBit = 1u, kEarlyBit = kLateBit << kTimingWindow,
                    kOverloadBit = kEarlyBit << kTimingWindow;
 constexpr uint32_t kFirstBits = kLateBit | kEarlyBit | kOverloadBit;

@@ -77,8 +77,8 @@ void find_turned(const std::vector<curve::Sample>& samples, const std::vector<ui
   const auto size_m = [](const curve::Sample& s) { return distance_m(s, {0, 0, 0}); };
   const size_t last = samples.size() - 1;
   for (size_t i = is_closed ? 0 : 1; i < last; ++i) {
-    const curve::Sample &at = samples[i], &before = samples[i == 0 ? last - 1 : i - 1],
-                        &after = samples[i + 1];
+    const size_t i_before = i == 0 ? last - 1 : i - 1;
+    const curve::Sample &at = samples[i], &before = samples[i_before], &after = samples[i + 1];
     const double before_m = distance_m(before, at), after_m = distance_m(at, after);
     const bool is_first_short = before_m < after_m;
     const double step_m = std::min(before_m, after_m), piece_m = std::max(before_m, after_m);
@@ -88,7 +88,7 @@ void find_turned(const std::vector<curve::Sample>& samples, const std::vector<ui
     report.turned_m = turned_m;
     report.turned_step_m = step_m;
     report.turned_piece_m = piece_m;
-    report.turned_row = rows[is_first_short && i > 0 ? i - 1 : i];
+    report.turned_row = rows[is_first_short ? i_before : i];
   }
 }
 

@@ -6,6 +6,7 @@
 #include "bake/mesh/stars.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
 #include "firmtouch/mesh/pseudonormal.hpp"
+#include "surface/check/near_sheets.hpp"
 #include "surface/winding_number.hpp"
 
 namespace firmtouch::tools {
@@ -16,10 +17,9 @@ namespace {
 constexpr double kBeside = 1e-7;
 
 // The triangles beside a thin one measure its edges by themselves, so that its height does not
-// separate these where two distances, each off by 2e-7 diagonals, may differ as much. By how much
-// its normals may be wrong all the same: then only for queries within 0.15 rad of a side's normal,
-// for which the distances to its edges differ by the whole height.
-constexpr double kUnresolved = 5e-7;  // of the diagonal
+// separate these below kUnresolved. By how much its normals may be wrong all the same: then only
+// for queries within 0.15 rad of a side's normal, for which the distances to its edges differ by
+// the whole height.
 constexpr double kMaxConfused_rad = 0.15;
 
 void take(SignProof::Kind& kind, uint32_t feature, double sine, double min_rad,

@@ -22,11 +22,6 @@ double volume6(const Surface& surface, const Face& face, Point origin) {
                    to_point(surface.vertices[face[2]]) - origin));
 }
 
-void grow(Box& box, Point p) {
-  box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-  box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-}
-
 struct Shell {
   uint32_t first_face = kNone;
   uint32_t faces = 0, turned = 0;
@@ -44,7 +39,10 @@ std::vector<Shell> measure(const Surface& surface, const std::vector<uint32_t>& 
       shell.box.low = shell.box.high = to_point(surface.vertices[surface.faces[f][0]]);
     }
     shell.turned += turned[f] ? 1u : 0u;
-    for (const uint32_t v : surface.faces[f]) grow(shell.box, to_point(surface.vertices[v]));
+    for (const uint32_t v : surface.faces[f]) {
+      const Point p = to_point(surface.vertices[v]);
+      grow(shell.box, {p, p});
+    }
     shell.volume6 += volume6(surface, surface.faces[f],
                              to_point(surface.vertices[surface.faces[shell.first_face][0]]));
   }
@@ -119,7 +117,7 @@ class Around {
     std::vector<Box> boxes;
     for (uint32_t f = 0; f < shell_.faces.size(); ++f) {
       boxes.push_back({corner(f, 0), corner(f, 0)});
-      for (uint32_t k = 1; k < 3; ++k) grow(boxes.back(), corner(f, k));
+      for (uint32_t k = 1; k < 3; ++k) grow(boxes.back(), {corner(f, k), corner(f, k)});
     }
     return boxes;
   }

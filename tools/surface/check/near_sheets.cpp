@@ -8,8 +8,6 @@
 namespace firmtouch::tools {
 namespace {
 
-// Of the diagonal. Two distances that are each off by 2e-7 of it, up to a quarter more away.
-constexpr double kUnresolved = 5e-7;
 // Of kUnresolved, as advised: reading the coordinates may take 1.5e-7 diagonals off at each side.
 constexpr double kResolved = 2;
 // Of kUnresolved: sheets count where they lie so near along this length, and farther than this from

@@ -10,6 +10,10 @@
 
 namespace firmtouch::tools {
 
+/// What float32 does not resolve, of the diagonal: two distances that are each off by 2e-7 of it,
+/// up to a quarter more away.
+constexpr double kUnresolved = 5e-7;
+
 /// Finds sheets of opposite orientation that are nearer than float32 resolves: a query cannot
 /// resolve which of them is nearer, and they give opposite signs, at any depth. Two walls with a
 /// gap, or the two sides of a thin sheet. Faces with a common edge are left to the proof of the
