@@ -125,6 +125,29 @@ TEST(ConvexEdgesNearEachOtherAreHarmless) {
   }
 }
 
+// A prism with a sharp edge of 45 degrees, one side of which is cut by corners 3e-6 to 1e-3 from
+// the edge. Diagonal 1.27.
+TEST(SliversAlongASharpEdgeAreTaken) {
+  for (int rotation = 0; rotation < kRotations; ++rotation) {
+    for (const double aside_m : {3e-6, 1e-5, 1e-4, 1e-3}) {
+      Surface surface;
+      add(surface,
+          {{0, 0, 0},
+           {0, 1, 0},
+           {0.5, 0, 0.5},
+           {0.5, 1, 0.5},
+           {0.5, 0, 0},
+           {0.5, 1, 0},
+           {aside_m, 0.3, aside_m},
+           {aside_m, 0.6, aside_m}},
+          faces_of("067 071 026 627 723 713 054 015 245 253 042 135"), rotation);
+      const CheckReport report = check(surface);
+      CHECK(report.usable() && report.is_closed);
+      CHECK_EQ(report.refused.size(), 0u);
+    }
+  }
+}
+
 TEST(SolidsThatCrossAreTakenAsBefore) {
   for (int rotation = 0; rotation < kRotations; ++rotation) {
     Surface surface;

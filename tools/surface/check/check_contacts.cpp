@@ -141,7 +141,9 @@ void refuse_contacts(const Surface& surface, CheckReport& report) {
   if (report.refused.size() == before) refuse_corners_in_pits(surface, report);
   if (report.refused.size() == before) refuse_touches(surface, report);
   if (report.refused.size() != before)
-    report.refused.back() += ", or bake with --unsigned: distances without inside and outside";
+    report.refused.back() +=
+        ", give it a surface around it with --wrap 1%, or bake with --unsigned: distances without "
+        "inside and outside";
 }
 
 }  // namespace firmtouch::tools

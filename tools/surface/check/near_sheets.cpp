@@ -25,6 +25,7 @@ constexpr double kFlat = 1e-3;  // sine of the turn of an edge that is as good a
 // Of kUnresolved: a hair so thin is as good as a sheet. A thicker one, 1e-7 of its length, is
 // taken.
 constexpr double kHair = 0.18;
+constexpr size_t kMaxPlace = 64;  // faces of a flat place
 
 }  // namespace
 
@@ -152,6 +153,48 @@ bool NearSheets::crosses_any(uint32_t f) const {
                      [&](uint32_t g) { return common_vertices(f, g) == 0 && crosses(f, g); });
 }
 
+// Whether the mate of edge k of f goes on in the plane of `normal`: a needle has none of its own.
+bool NearSheets::goes_on(uint32_t f, uint32_t k, Point normal) const {
+  const uint32_t mate = mates_[3 * f + k];
+  const Point along = point(f, k + 1) - point(f, k);
+  const Point over = point(mate / 3, mate % 3 + 2) - point(f, k);
+  const double depth_m = std::fabs(dot(normal, over));
+  return depth_m <= kHair * unresolved_m_ ||
+         depth_m * length(along) <= kFlat * length(cross(along, over));
+}
+
+// Faces that are in one plane with f, f among them.
+std::vector<uint32_t> NearSheets::place_of(uint32_t f) const {
+  std::vector<uint32_t> place{f};
+  for (size_t i = 0; i < place.size() && place.size() < kMaxPlace; ++i) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t mate = mates_[3 * place[i] + k];
+      if (mate == kNone || !goes_on(place[i], k, normals_[f])) continue;
+      if (std::find(place.begin(), place.end(), mate / 3) == place.end()) place.push_back(mate / 3);
+    }
+  }
+  return place;
+}
+
+// Whether all points lie beside one edge that the places of both faces share: slivers may part
+// f and g from it, which are near each other there as the sides of any edge.
+bool NearSheets::is_beside_common_edge(uint32_t f, uint32_t g, const Polygon& polygon) const {
+  const std::vector<uint32_t> place = place_of(f), other = place_of(g);
+  for (const uint32_t a : place) {
+    for (uint32_t k = 0; k < 3; ++k) {
+      const uint32_t mate = mates_[3 * a + k];
+      if (mate == kNone || goes_on(a, k, normals_[f])) continue;
+      if (std::find(other.begin(), other.end(), mate / 3) == other.end()) continue;
+      const Point along = point(a, k + 1) - point(a, k);
+      const auto is_beside = [&](Point p) {
+        return length(cross(along, p - point(a, k))) <= kRegion * unresolved_m_ * length(along);
+      };
+      if (std::all_of(polygon.at, polygon.at + polygon.size, is_beside)) return true;
+    }
+  }
+  return false;
+}
+
 // Whether g lies so near along this length.
 bool NearSheets::lies_on(uint32_t f, uint32_t g, double along_m) const {
   const double plane = dot(normals_[f], point(f, 0));
@@ -159,6 +202,7 @@ bool NearSheets::lies_on(uint32_t f, uint32_t g, double along_m) const {
   polygon.cut(normals_[f], plane - unresolved_m_);
   polygon.cut(normals_[f] * -1, -plane - unresolved_m_);
   if (!(polygon.diameter() > along_m)) return false;
+  if (is_beside_common_edge(f, g, polygon)) return false;
   const bool is_transverse = length(cross(normals_[f], normals_[g])) > kTransverse;
   return !is_transverse || !(crosses_any(f) || crosses_any(g));
 }

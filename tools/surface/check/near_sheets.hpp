@@ -38,12 +38,15 @@ class NearSheets {
   uint32_t common_vertices(uint32_t f, uint32_t g) const;
   bool is_clear_of_plane(uint32_t f, uint32_t g) const;
   bool is_convex_edge(uint32_t f, uint32_t k) const;
+  bool goes_on(uint32_t f, uint32_t k, Point normal) const;
+  std::vector<uint32_t> place_of(uint32_t f) const;
   bool crosses(uint32_t f, uint32_t g) const;
   bool crosses_any(uint32_t f) const;
   bool lies_on(uint32_t f, uint32_t g, double along_m) const;
 
   struct Polygon;
   Polygon beside(uint32_t f, uint32_t g, double margin_m) const;
+  bool is_beside_common_edge(uint32_t f, uint32_t g, const Polygon& polygon) const;
 
   const Surface& surface_;
   const NearFaces& near_faces_;
