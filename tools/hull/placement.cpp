@@ -29,6 +29,7 @@ Placement::Placement(const CollapseMesh& mesh, const HullGrid& grid, const HullL
 
 bool Placement::may_collapse(uint32_t edge) {
   ++counts_.evaluations;
+  // The paper says "the edge's valence" and aims at vertices: the valence that the new one has.
   if (mesh_.crowd_of(edge) > limits_.max_valence + 4) {
     ++counts_.valence;
     return false;

@@ -13,7 +13,7 @@ constexpr double kLeg_m = 0.06, kSpacing_m = 0.0005, kAside_m = 0.003, kStep_m =
 constexpr float kStiffness_N_per_m = 400.0f;
 constexpr float kRelease_m = 0.03f;
 
-struct Corner {
+struct Bend {
   const char* name;
   double cosine, sine;  // of the way back out
 };
@@ -21,26 +21,26 @@ struct Corner {
 math::Vec3 at(double x, double y) { return {static_cast<float>(x), static_cast<float>(y), 0.0f}; }
 
 // Along the x axis to the origin and out again.
-std::vector<math::Vec3> samples_of(const Corner& corner) {
+std::vector<math::Vec3> samples_of(const Bend& bend) {
   std::vector<math::Vec3> samples;
   const int count = static_cast<int>(std::lround(kLeg_m / kSpacing_m));
   for (int i = -count; i <= count; ++i) {
     const double s = kSpacing_m * i;
-    samples.push_back(i < 0 ? at(s, 0) : at(s * corner.cosine, s * corner.sine));
+    samples.push_back(i < 0 ? at(s, 0) : at(s * bend.cosine, s * bend.sine));
   }
   return samples;
 }
 
 // A hand that goes from one leg to the other, at the same distance from both, inside the corner.
-std::vector<math::Vec3> inside(const Corner& corner) {
+std::vector<math::Vec3> inside(const Bend& bend) {
   // Where the two lines beside the legs meet: as far from the tip along either.
-  const double from_tip_m = kAside_m * (1 - corner.cosine) / corner.sine;
+  const double from_tip_m = kAside_m * (1 - bend.cosine) / bend.sine;
   const double begin_m = from_tip_m + 0.02;
   std::vector<math::Vec3> points;
   for (double s = begin_m; s > from_tip_m; s -= kStep_m) points.push_back(at(-s, kAside_m));
   for (double s = from_tip_m; s < begin_m; s += kStep_m)
     points.push_back(
-        at(s * corner.cosine - kAside_m * corner.sine, s * corner.sine + kAside_m * corner.cosine));
+        at(s * bend.cosine - kAside_m * bend.sine, s * bend.sine + kAside_m * bend.cosine));
   return points;
 }
 
@@ -89,6 +89,7 @@ Drag guide_drag(const CurveCase& curve, const std::vector<math::Vec3>& points, f
   });
 }
 
+// The published cost, here of all segments, not of those at the N nearest samples.
 Drag published_drag(const CurveCase& curve, const std::vector<math::Vec3>& points, float weight_m) {
   curve::Hint hint;
   curve::ArcPenalty penalty{weight_m, 0.0f, false};
@@ -107,14 +108,14 @@ std::string newtons(double value) { return number_text(std::abs(value) < 5e-4 ? 
 
 // The drag that a penalty on arc length makes at corners: published and ours.
 void run_curve_drag(const Options&, Report& report) {
-  const Corner corners[] = {{"corner of 90 degrees", 0.0, 1.0},
-                            {"corner of 30 degrees", -0.8660254, 0.5},
-                            {"turn of 10 degrees", 0.9848078, 0.1736482}};
-  for (const Corner& corner : corners) {
-    report.heading(std::string("drag at corners: ") + corner.name +
+  const Bend corners[] = {{"corner of 90 degrees", 0.0, 1.0},
+                          {"corner of 30 degrees", -0.8660254, 0.5},
+                          {"turn of 10 degrees", 0.9848078, 0.1736482}};
+  for (const Bend& bend : corners) {
+    report.heading(std::string("drag at corners: ") + bend.name +
                    ", a hand 3 mm inside it, 400 N/m");
-    const CurveCase curve = bake_case(samples_of(corner), corner.name);
-    const std::vector<math::Vec3> points = inside(corner);
+    const CurveCase curve = bake_case(samples_of(bend), bend.name);
+    const std::vector<math::Vec3> points = inside(bend);
     std::vector<std::vector<std::string>> rows;
     for (const double share : {0.0, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
       const float weight_m = static_cast<float>(share) * curve.view.head().length_m;

@@ -127,12 +127,13 @@ std::vector<std::string> row_of(const char* boxes, const Column& c) {
           seconds(c.ray_s)};
 }
 
-// Their table, as ratios: the range over its eight models, and its horse of 60,680 triangles.
+// Their table, as ratios: the range over its eight models, and its horse of 60,680 triangles. They
+// build a tree of one triangle a leaf for each kind of box; here both take the baker's tree.
 void report_ratios(const Columns& c, Report& report) {
   const Column &obb = c.oriented, &aabb = c.aligned;
   report.table(
       {"ratio", "here", "paper, eight models", "paper's horse"},
-      {{"build, oriented / aligned", ratio(obb.build_s / aabb.build_s), "2.2 to 2.9", "2.35"},
+      {{"build*, oriented / aligned", ratio(obb.build_s / aabb.build_s), "2.2 to 2.9", "2.35"},
        {"build, oriented, with signs / without", ratio(obb.build_signed_s / obb.build_s),
         "1.16 to 1.21", "1.18"},
        {"build, aligned, with signs / without", ratio(aabb.build_signed_s / aabb.build_s),
@@ -148,7 +149,8 @@ void report_ratios(const Columns& c, Report& report) {
        {"rays / grid with signs, aligned", ratio(aabb.ray_s / aabb.grid_signed_s), "0.39 to 3.77",
         "0.40"},
        {"grid with signs, the firmware / aligned",
-        ratio(c.firmware.grid_signed_s / aabb.grid_signed_s), "", ""}});
+        ratio(c.firmware.grid_signed_s / aabb.grid_signed_s), "", ""},
+       {"* here: boxes fitted to the baker's tree", "", "", ""}});
 }
 
 void report_signs(const Model& model, const Grown<orders::FloatKind>& aligned, const Points& points,

@@ -57,18 +57,24 @@ void draw(const Options& options, const tools::Surface& surface, const Model& mo
 }  // namespace
 
 void draw_hull_figures(const Options& options, Report& report) {
-  report.heading("progressive hulls, figures 6 to 12: models and hulls, drawn into " +
+  report.heading("progressive hulls, figures 6, 7 and 9 to 12: models and hulls, drawn into " +
                  options.figures);
+  constexpr std::pair<tools::HullStrategy, const char*> kStrategies[] = {
+      {tools::HullStrategy::kVolume, "-strategy-1-"},
+      {tools::HullStrategy::kCentre, "-strategy-2-"}};
   for (const Model& model : load_models(options)) {
     report.stage("hulls of " + model.name);
     draw(options, model.surface, model, model.name + "-mesh", report);
-    tools::HullOptions how;
-    how.target_faces = 200;
-    tools::HullReport built;
-    const tools::ProgressiveHull hull = tools::build_hull(model.surface, how, built);
-    for (const uint32_t faces : {2000u, 200u})
-      draw(options, tools::hull_level(hull, std::max(faces, hull.min_faces())), model,
-           model.name + "-hull-" + std::to_string(faces), report);
+    for (const auto& [strategy, name] : kStrategies) {
+      tools::HullOptions how;
+      how.strategy = strategy;
+      how.target_faces = 200;
+      tools::HullReport built;
+      const tools::ProgressiveHull hull = tools::build_hull(model.surface, how, built);
+      for (const uint32_t faces : {2000u, 200u})
+        draw(options, tools::hull_level(hull, std::max(faces, hull.min_faces())), model,
+             model.name + "-hull" + name + std::to_string(faces), report);
+    }
   }
 }
 

@@ -9,8 +9,10 @@ namespace firmtouch::tools {
 /// The published search for a list of points, for comparison: a list of boxes to look at, lower and
 /// upper bounds by nearest and farthest corner, the next point's list seeded with the box `ascend`
 /// levels above the last nearest triangle. Two things differ from the print, which gives wrong
-/// answers (tests/field/morris_host_test.cpp): distances to planes are squared before they are
-/// summed, and the bounds begin anew with each point.
+/// answers (tests/lab/morris_host_test.cpp): distances to planes are squared before they are
+/// summed, and the bounds begin anew with each point. Two more change no answer: the subtree of the
+/// seed is emptied before the root is queued, not beside it, and a leaf lowers the upper bound or
+/// leaves it.
 /// Source: Morris 2006, section 3.3.
 class MorrisSearch {
  public:

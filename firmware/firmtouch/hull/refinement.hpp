@@ -60,7 +60,8 @@ struct RefinedCrossings {
 ///         crossings the first and the last are found. Others, and those of a segment that begins
 ///         between hull and mesh, may be missed (hull/complete_cast.hpp finds all). If budget or
 ///         memory runs out, no crossing of the mesh is nearer than the reported one (from outside).
-/// Source: Platis & Theoharis 2003, section 3.2.
+/// Source: Platis & Theoharis 2003, section 3.2; of the corners of a face that is crossed it splits
+/// the one that made it, where the paper splits each that it can.
 class Refinement {
  public:
   /// Pre: `base_hull` was opened against `hull`; memory.is_split holds bit_words(collapse_count()),

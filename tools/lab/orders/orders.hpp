@@ -94,7 +94,7 @@ bool best_first(S& search, Pending* pending) {
 }
 
 /// A level after the other, by a ring of kRingBoxes. Result: false where that is not enough.
-/// Source: Morris 2004, section 3.2, as what depth-first is compared with.
+/// Source: Morris 2006, section 3.3, as what depth-first is compared with.
 template <class S>
 bool breadth_first(S& search, Pending* pending, uint32_t ring_boxes) {
   uint32_t head = 0, tail = 0;
