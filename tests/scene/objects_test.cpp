@@ -24,8 +24,10 @@ scene::Object at(Vec3 place_m, Vec3 velocity_mps = {}) {
   return object;
 }
 
-// Boxes of 0.2 x 0.2 x 0.02 m, or all that is below their tops, and a tool with its servo.
+// Boxes of 0.2 x 0.2 x 0.02 m, or all that is below their tops, or balls, and a tool with its
+// servo.
 struct Boxes {
+  scene::SphereTouched ball{{}, 0.02f};
   scene::BoxTouched box{{}, {0.1f, 0.1f, 0.01f}};
   scene::PlaneTouched top{{0, 0, 0.01f}, {0, 0, 1}};
   scene::Object object[scene::kMaxObjects];
@@ -35,7 +37,7 @@ struct Boxes {
   servo::LocalModel model;
   servo::State state;
   servo::Settings limits{8.0f, 1e5f, 0.0f, kTick_s, {1.0f, 0.0f}};
-  bool is_plane = false;
+  bool is_plane = false, is_ball = false;
   servo::StepOutput output;
   uint32_t count = 0, now = 0, queries = 0;
 
@@ -52,9 +54,11 @@ struct Boxes {
   }
   scene::Near near(uint32_t, Vec3 x_m, query::Budget budget, float needed_m) {
     ++queries;
+    if (is_ball) return ball.near(x_m, budget, needed_m);
     return is_plane ? top.near(x_m, budget, needed_m) : box.near(x_m, budget, needed_m);
   }
   float free_part(uint32_t, const scene::Way& way, query::Budget budget, uint32_t& work) const {
+    if (is_ball) return ball.free_part(way, budget, work);
     return is_plane ? top.free_part(way, budget, work) : box.free_part(way, budget, work);
   }
   float size_m() const { return 0.5f; }
@@ -141,6 +145,54 @@ TEST(Objects_WallThatLiftsTheHand_IsNotCountedAsEnergyOfContact) {
     CHECK_EQ(boxes.output.faults, 0u);
   }
   CHECK(is_near(boxes.output.force_N.z, 3.2f, 0.01f));
+}
+
+// Nothing that can be felt moves. What the chord of the turn leads inward was taken for work, and
+// emptied the reservoir: the force fell to 0.04 N.
+TEST(Objects_BallThatTurns_IsFeltAsOneThatStands) {
+  const float turns_rad_per_s[] = {0.0f, 5.0f, 50.0f, 300.0f};
+  for (const float turn_rad_per_s : turns_rad_per_s) {
+    Boxes boxes;
+    boxes.is_ball = true;
+    boxes.limits.energy.reservoir_J = 0.0006f;
+    boxes.add(at({}));
+    boxes.object[0].twist.turn_rad_per_s = {0, turn_rad_per_s, 0};
+    for (int tick = 0; tick < 2000; ++tick) {  // 1 mm deep
+      const float left_m = tick < 300 ? 1e-5f * static_cast<float>(300 - tick) : 0.0f;
+      boxes.tick({0, 0, 0.022f + left_m});
+    }
+    CHECK(is_near(boxes.output.force_N.z, 1.0f, 0.001f));
+    CHECK(is_near(boxes.output.force_N.x, 0.0f, 0.001f));
+    CHECK_EQ(boxes.output.faults, 0u);
+  }
+}
+
+// A wall that slides under a hand that shakes: its speed was taken for the device's, whose friction
+// fills the reservoir. The hand was given 50 mJ in 20 s.
+TEST(Objects_WallThatSlides_GivesNoMoreThanOneThatStands) {
+  constexpr float kFriction_N_per_m = 500;
+  const float speeds_mps[] = {0.0f, 0.3f};
+  float standing_J = 0;
+  for (const float speed_mps : speeds_mps) {
+    Boxes boxes;
+    boxes.is_plane = true;
+    boxes.contact.material.stiffness_N_per_m = 8000;
+    boxes.limits.energy = {0.0006f, kFriction_N_per_m};
+    boxes.add(at({0, 0, -0.01f}, {speed_mps, 0, 0}));
+    float given_J = 0, before_m = 0, last_m = 0.004f;
+    boxes.tick({0, 0, last_m});
+    for (int tick = 0; tick < 4000; ++tick) {
+      const float now_m = 0.0025f + 0.0003f * math::sine(0.8f * static_cast<float>(tick));
+      const float move_m = now_m - last_m;
+      given_J += boxes.output.force_N.z * move_m;
+      if (move_m * before_m > 0) given_J -= kFriction_N_per_m * move_m * before_m;
+      boxes.tick({0, 0, now_m});
+      before_m = move_m;
+      last_m = now_m;
+    }
+    if (speed_mps > 0) CHECK_LE(given_J, 1.01f * standing_J);
+    standing_J = given_J;
+  }
 }
 
 // A belt without friction leaves the tool where it is, one with friction takes it along until the

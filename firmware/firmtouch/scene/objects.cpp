@@ -183,7 +183,7 @@ bool ObjectsTick::end_carry(const Bounds& bounds) {
     settings_.growth_m = touch_.full_radius_m - proxy_.radius_m;
   }
   contact_.position_m = math::apply_inverse(pose_of(touch_.carrier), hand_m_);
-  if (touch_.carrier != kNoObject) carried_m_ = base_.place.device_m - was_.device_m;
+  if (touch_.carrier != kNoObject) carried_m_ = way_of_carrier();
   return false;
 }
 
@@ -206,6 +206,14 @@ void ObjectsTick::shrink(float room_m) {
     proxy_.feature[at] = in_frame(feature);
     proxy_.plane[at] = {};  // a proxy that grows takes all anew
   }
+}
+
+// Half of where the carrier takes the proxy from where it was, and of where it took it from: along
+// a turn, as its motion there is. The chord alone also leads inward: that would count as work.
+Vec3 ObjectsTick::way_of_carrier() const {
+  const Vec3 back_m = math::apply(set_.pair[touch_.carrier].pose,
+                                  math::apply_inverse(pose_of(touch_.carrier), was_.device_m));
+  return (base_.place.device_m - back_m) * 0.5f;
 }
 
 void ObjectsTick::enter(const Place& place) {

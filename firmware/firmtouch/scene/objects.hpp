@@ -123,6 +123,7 @@ class ObjectsTick {
   void drop_moved_features();
   Material material_of(uint32_t i) const;
   bool end_carry(const Bounds& bounds);
+  math::Vec3 way_of_carrier() const;
   void shrink(float room_m);
   bool has(const Feature& feature) const;
   bool is_better(const Near& near) const;

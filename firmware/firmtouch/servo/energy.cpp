@@ -6,9 +6,9 @@ namespace firmtouch::servo {
 
 float payable_stretch_m(Energy& energy, float& left_J, const EnergySettings& settings,
                         float stiffness_N_per_m, float stretch_m, math::Vec3 move_m,
-                        math::Vec3 before_m) {
+                        math::Vec3 before_m, float object_J) {
   const float lost_J = math::larger(settings.friction_N_per_m * math::dot(move_m, before_m), 0.0f);
-  const float given_J = math::dot(energy.force_N, move_m) - lost_J;
+  const float given_J = math::dot(energy.force_N, move_m) - object_J - lost_J;
   const float stored_J = 0.5f * stiffness_N_per_m * stretch_m * stretch_m;
   float available_J = energy.saved_J + left_J - given_J;
   const float most_J = stored_J + settings.reservoir_J;

@@ -34,9 +34,9 @@ struct Energy {
 
 /// Counts the work of the last tick and limits the spring to the energy that is left.
 /// The work is exact: between two samples the motors hold the force. `move_m`: of the tool since
-/// the last tick, less what a moving object displaced the proxy by; its work is not the surface's.
-/// `before_m`: that of the tick before. The device's friction takes the product of both: a square
-/// would count an encoder's steps to and fro as motion.
+/// the last tick. `before_m`: that of the tick before. The device's friction takes the product of
+/// both: a square would count an encoder's steps to and fro as motion. `object_J`: the part of the
+/// work that a moving object does.
 /// `left_J`: of the reservoir. A spring gives from there what it has not saved; energy that it
 /// dissipates fills it up, and is not saved beyond it.
 /// Result: the largest stretch of the spring. At least `stretch_m` while the reservoir is not
@@ -51,6 +51,6 @@ struct Energy {
 ///         energy: no velocity is used, so that an encoder's steps make no force).
 float payable_stretch_m(Energy& energy, float& left_J, const EnergySettings& settings,
                         float stiffness_N_per_m, float stretch_m, math::Vec3 move_m,
-                        math::Vec3 before_m);
+                        math::Vec3 before_m, float object_J = 0);
 
 }  // namespace firmtouch::servo

@@ -39,6 +39,12 @@ bool is_sound(const Settings& settings) {
 
 Vec3 shorten(Vec3 a, float most) { return a * share_within(a, most); }
 
+// By which `a` is no longer than `wanted` along it.
+float share_along(Vec3 a, Vec3 wanted) {
+  const float along = math::dot(a, wanted), length = math::length(a);
+  return along > 0.0f ? share_within(a, along / length) : length > 0.0f ? 0.0f : 1.0f;
+}
+
 bool lasts(uint32_t ticks, const Settings& settings, float most_s = kLasting_s) {
   return static_cast<float>(ticks) * settings.tick_period_s >= most_s;
 }
@@ -105,7 +111,7 @@ Vec3 ramped_out(State& state, const Settings& settings) {
 // have left.
 // Result: the largest stretch of the spring.
 float move_spring(State& state, const EnergySettings& counted, const ProxySpring& spring,
-                  Vec3 move_m, Vec3 before_m, bool is_late) {
+                  Vec3 before_m, Vec3 carried_m, bool is_late) {
   const Vec3 position_m = state.position_m;
   if (is_late) {
     const Vec3 last_m = position_m - state.move_m;
@@ -115,7 +121,8 @@ float move_spring(State& state, const EnergySettings& counted, const ProxySpring
   state.proxy_m = proxy_at(spring, position_m);
   return payable_stretch_m(state.energy, state.reservoir_J, counted,
                            spring.is_used ? spring.stiffness_N_per_m : 0.0f,
-                           math::length(state.proxy_m - position_m), move_m, before_m);
+                           math::length(state.proxy_m - position_m), state.move_m, before_m,
+                           math::dot(state.energy.force_N, carried_m));
 }
 
 // Counts the energy of the guide's last tick. `off_m`: of the tool, as far as the guide acts on it.
@@ -178,17 +185,20 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   const Vec3 change_N = wanted_N - state.force_N;
   const float moved = share_within(change_N, step_N);
   Vec3 force_N = shorten(state.force_N + change_N * moved, settings.force_limit_N);
-  // A force that is not paid for must not last: it falls faster than its slew limit.
-  float left = 1;
-  if (state.energy.is_unpaid || state.guide_energy.is_unpaid)
-    left = share_within(force_N, math::length(wanted_N));
-  force_N = force_N * left;
-  // The parts lag behind and fall as their sum does, so that they add up to it.
+  // The parts lag behind as their sum does, so that they add up to it.
   const float kept = within * share;
   Vec3& part_N = state.part_N;
   Vec3& its_N = state.guide_energy.force_N;
-  part_N = (part_N + (other_N * kept - part_N) * moved) * left;
-  its_N = (its_N + (guide_N * kept - its_N) * moved) * left;
+  part_N = part_N + (other_N * kept - part_N) * moved;
+  its_N = its_N + (guide_N * kept - its_N) * moved;
+  // A part that is not paid for must not last: all fall, faster than the slew limit, by as much as
+  // it is to fall.
+  float left = 1;
+  if (state.energy.is_unpaid) left = share_along(force_N - part_N, wanted_N - other_N * kept);
+  if (state.guide_energy.is_unpaid) left = math::smaller(left, share_along(its_N, guide_N * kept));
+  force_N = force_N * left;
+  part_N = part_N * left;
+  its_N = its_N * left;
   if (model.spring.is_used) state.energy.force_N = force_N - state.part_N;
   return force_N;
 }
@@ -212,8 +222,8 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   const Vec3 carried_m = model.spring.velocity_mps * settings.tick_period_s;
   const bool is_new = model.made_tick != state.made_tick;
   state.made_tick = model.made_tick;
-  const float spring_m = move_spring(state, of_contact, model.spring, state.move_m - carried_m,
-                                     before_m - carried_m, is_new && model.made_tick != input.tick);
+  const float spring_m = move_spring(state, of_contact, model.spring, before_m, carried_m,
+                                     is_new && model.made_tick != input.tick);
   const Vec3 off_m = model.has_guide ? guided_off_m(model.guide, input.position_m) : Vec3{};
   const float guide_share = paid_share(state, of_guide, model, off_m, before_m, is_new);
   uint32_t faults = seen_faults(state, settings, model, input);
