@@ -147,9 +147,9 @@ TEST(Objects_WallThatLiftsTheHand_IsNotCountedAsEnergyOfContact) {
   CHECK(is_near(boxes.output.force_N.z, 3.2f, 0.01f));
 }
 
-// Nothing that can be felt moves. What the chord of the turn leads inward was taken for work, and
+// Its surface stays where it is. What the chord of the turn leads inward was taken for work, and
 // emptied the reservoir: the force fell to 0.04 N.
-TEST(Objects_BallThatTurns_IsFeltAsOneThatStands) {
+TEST(Objects_BallThatTurns_PushesLikeOneThatStands) {
   const float turns_rad_per_s[] = {0.0f, 5.0f, 50.0f, 300.0f};
   for (const float turn_rad_per_s : turns_rad_per_s) {
     Boxes boxes;

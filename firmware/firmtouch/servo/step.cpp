@@ -31,18 +31,17 @@ bool is_sound(const Settings& settings) {
 // The share of a vector that `most` leaves: in exact arithmetic it is not longer then. noinline: in
 // flash once.
 [[gnu::noinline]] float share_within(Vec3 a, float most) {
-  if (!(most >= kMinLimit_N)) return 0.0f;
   const float kept = most * (1.0f - 8.0f * kRound);
   const float is = math::length(a);
-  return is <= kept ? 1.0f : kept / is;
+  if (is <= kept) return 1.0f;
+  return most >= kMinLimit_N ? kept / is : 0.0f;
 }
 
 Vec3 shorten(Vec3 a, float most) { return a * share_within(a, most); }
 
 // By which `a` is no longer than `wanted` along it.
-float share_along(Vec3 a, Vec3 wanted) {
-  const float along = math::dot(a, wanted), length = math::length(a);
-  return along > 0.0f ? share_within(a, along / length) : length > 0.0f ? 0.0f : 1.0f;
+[[gnu::noinline]] float share_along(Vec3 a, Vec3 wanted, float kept) {
+  return share_within(a, math::dot(a, wanted) * kept / math::larger(math::length(a), FLT_MIN));
 }
 
 bool lasts(uint32_t ticks, const Settings& settings, float most_s = kLasting_s) {
@@ -173,9 +172,9 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
     guide_N = pull_N(model.guide, off_m, input.velocity_mps, guide_share);
     other_N = other_N + guide_N + drive_N(model.guide, input.position_m, input.velocity_mps);
   }
-  const Vec3 model_N = (other_N + spring_N(model.spring, state.proxy_m, spring_m, input.position_m,
-                                           input.velocity_mps - model.spring.velocity_mps)) *
-                       share;
+  const Vec3 contact_N = spring_N(model.spring, state.proxy_m, spring_m, input.position_m,
+                                  input.velocity_mps - model.spring.velocity_mps);
+  const Vec3 model_N = (other_N + contact_N) * share;
   const float within = share_within(model_N, settings.force_limit_N);
   const Vec3 wanted_N = model_N * within;
   // The sum below rounds by half an ulp of an axis, at most the limit; subtracted from the step
@@ -194,8 +193,8 @@ Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
   // A part that is not paid for must not last: all fall, faster than the slew limit, by as much as
   // it is to fall.
   float left = 1;
-  if (state.energy.is_unpaid) left = share_along(force_N - part_N, wanted_N - other_N * kept);
-  if (state.guide_energy.is_unpaid) left = math::smaller(left, share_along(its_N, guide_N * kept));
+  if (state.energy.is_unpaid) left = share_along(force_N - part_N, contact_N, kept);
+  if (state.guide_energy.is_unpaid) left = math::smaller(left, share_along(its_N, guide_N, kept));
   force_N = force_N * left;
   part_N = part_N * left;
   its_N = its_N * left;
@@ -214,8 +213,9 @@ StepOutput step(State& state, const Settings& settings, const LocalModel& model,
   const bool counts = is_on(state.mode) || (input.enable && state.mode == Mode::kOff);
   state.uncertain_ticks = model.is_uncertain && counts ? state.uncertain_ticks + 1 : 0;
   // The device's friction counts once, and fills the reservoir of both: with contact, if there is.
-  EnergySettings of_contact = settings.energy, of_guide = settings.energy;
-  (model.spring.is_used ? of_guide : of_contact).friction_N_per_m = 0;
+  const EnergySettings without{settings.energy.reservoir_J, 0};
+  const EnergySettings& of_contact = model.spring.is_used ? settings.energy : without;
+  const EnergySettings& of_guide = model.spring.is_used ? without : settings.energy;
   const Vec3 before_m = state.move_m;
   state.move_m = input.position_m - state.position_m;
   state.position_m = input.position_m;
