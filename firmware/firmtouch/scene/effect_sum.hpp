@@ -21,8 +21,9 @@ struct EffectStore {
 };
 
 /// Sum in the order of the calls, which is that of priority. Contact is first: the effects never
-/// reduce what servo renders of it. Each effect gets the largest share, 0 to 1, that leaves the sum
-/// within the limit. The shares are continuous in all forces.
+/// reduce what servo renders of it, except where all of it together reaches the slew limit. Each
+/// effect gets the largest share, 0 to 1, that leaves the sum within the limit. The shares are
+/// continuous in all forces.
 /// Bounds: about 70 instructions to begin, 140 instructions an effect, 130 instructions to put.
 /// Error: the sum exceeds the limit by at most 1e-6 of it.
 class EffectSum {
@@ -39,9 +40,12 @@ class EffectSum {
   float add(math::Vec3 direction, float size_N);
 
   /// A force of a potential. A share that changes would give energy on closed loops: it also is at
-  /// most what the hand has paid, stored_J over potential_J. Then the force is passive: in n ticks
-  /// it gives at most the potential of its first tick and n 1e-6 J, by which a share that fell
-  /// rises again. One call each tick; a new store where the effect was left out.
+  /// most what the hand has paid, stored_J over potential_J. Then the share gives in n ticks at
+  /// most the potential of the first one and n 1e-6 J, by which a share that fell rises again. Not
+  /// counted: that a force is held for a tick. As any spring it gives no energy by that up to a
+  /// stiffness of twice the damping of device and hand over the tick's period; of detents it is 2
+  /// pi times the limit over the pitch. One call each tick; a new store where the effect was left
+  /// out.
   float add(const EffectForce& effect, EffectStore& store);
 
   /// Sum of the effects.
