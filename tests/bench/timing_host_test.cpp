@@ -71,6 +71,8 @@ TEST(PeerGetsKindFileAndPoints) {
       "f() { [ \"$1-$2-$3\" = \"closest-it's a model.obj-p q.csv\" ] && "
       "echo warm us_per_query 0.125 queries 9; }; f");
   CHECK_EQ(echo.us_per_query("closest", "it's a model.obj", "p q.csv"), 0.125);
+  const Peer warm("f() { [ $# = 4 ] && [ \"$4\" = --warm ] && echo us_per_query 0.25; }; f");
+  CHECK_EQ(warm.us_per_query("closest", "a.obj", "p.csv", "--warm"), 0.25);
 }
 
 TEST(APeerThatFailsIsNamedWithItsStatus) {

@@ -49,6 +49,12 @@ BenchRacesAPeerOrSaysThatItIsAbsent() {
   exits 1
   says 'not met'
   printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  NOT MET' || fail "$out"
+  # The peer of a warm race is warm; its cold figure stands beside it.
+  f bench distance box.obj --peer 'w() { case $4 in --warm) echo us_per_query 3600 ;; *) echo us_per_query 7200 ;; esac; }; w'
+  exits 0
+  printf '%s\n' "$out" | grep -qE 'touching path, warm, the peer .* 3,?600( |\.)' || fail "$out"
+  printf '%s\n' "$out" | grep -qE 'touching path, warm, the peer, cold .* 7,?200( |\.)' || fail "$out"
+  printf '%s\n' "$out" | grep -qE 'random points, cold, exact, the peer .* 7,?200( |\.)' || fail "$out"
   f bench distance box.obj --json --peer 'echo us_per_query 0.000001;:'
   exits 0
   well_formed

@@ -41,7 +41,8 @@ struct Race {
   double goal;
 };
 
-// As baked for a controller, and for a desktop.
+// As baked for a controller, and for a desktop. A warm race has a warm peer, and the cold one
+// beside it.
 void run_race(const Race& race, const Model& model, const Model& desktop, const Peer& peer,
               Report& report) {
   report.stage(std::string(race.what) + ", " + model.name);
@@ -50,8 +51,10 @@ void run_race(const Race& race, const Model& model, const Model& desktop, const 
       median_of_passes(ours(model.wide, race.points, race.is_warm)),
       median_of_passes(ours(desktop.wide, race.points, race.is_warm))};
   if (peer.is_present()) {
-    contenders.push_back(peer.contender("closest", file_for_peer(model, folder),
-                                        folder.write("points.csv", tools::to_csv(race.points))));
+    const std::string file = file_for_peer(model, folder);
+    const std::string points = folder.write("points.csv", tools::to_csv(race.points));
+    if (race.is_warm) contenders.push_back(peer.contender("closest", file, points, "--warm"));
+    contenders.push_back(peer.contender("closest", file, points));
   }
   const std::vector<double> us = medians_us(contenders);
   const char* const bakes[] = {", --fast", ", --desktop"};
@@ -63,6 +66,9 @@ void run_race(const Race& race, const Model& model, const Model& desktop, const 
   for (size_t i = 0; i < 2; ++i)
     report.bar(std::string(race.what) + bakes[i] + " against the peer", model.name, us[i] / us[2],
                "x", race.goal);
+  if (race.is_warm)
+    report.figure(std::string(race.what) + ", the peer, cold", model.name, us[3], "us",
+                  number_text(us[0] / us[3]) + " x, " + number_text(us[1] / us[3]) + " x");
 }
 
 // Bytes that queries read, by what they are for; names in the imported file, probes and provenance

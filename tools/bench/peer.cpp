@@ -45,9 +45,10 @@ constexpr const char* kRemedy = "; run it by hand, or leave --peer out";
 
 }  // namespace
 
-std::string Peer::output(const std::string& kind, const std::string& file,
-                         const std::string& csv) const {
-  const std::string line = command_ + " " + kind + " " + quoted(file) + " " + quoted(csv);
+std::string Peer::output(const std::string& kind, const std::string& file, const std::string& csv,
+                         const std::string& option) const {
+  const std::string line = command_ + " " + kind + " " + quoted(file) + " " + quoted(csv) +
+                           (option.empty() ? "" : " " + option);
   int status = 0;
   const std::string text = output_of(line, status);
   if (status != 0) {
@@ -58,9 +59,9 @@ std::string Peer::output(const std::string& kind, const std::string& file,
   return text;
 }
 
-double Peer::us_per_query(const std::string& kind, const std::string& file,
-                          const std::string& csv) const {
-  const double us = number_after(output(kind, file, csv), "us_per_query ");
+double Peer::us_per_query(const std::string& kind, const std::string& file, const std::string& csv,
+                          const std::string& option) const {
+  const double us = number_after(output(kind, file, csv, option), "us_per_query ");
   if (!(us > 0 && us < 1e12))
     throw Problem("peer: " + command_ + " " + kind + " " + file +
                   ": printed no `us_per_query` above 0" + kRemedy);
@@ -69,12 +70,14 @@ double Peer::us_per_query(const std::string& kind, const std::string& file,
 
 double Peer::build_us(const std::string& kind, const std::string& file,
                       const std::string& csv) const {
-  return number_after(output(kind, file, csv), "build_s ") * 1e6;
+  return number_after(output(kind, file, csv, ""), "build_s ") * 1e6;
 }
 
-Contender Peer::contender(const std::string& kind, const std::string& file,
-                          const std::string& csv) const {
-  return [peer = *this, kind, file, csv] { return peer.us_per_query(kind, file, csv); };
+Contender Peer::contender(const std::string& kind, const std::string& file, const std::string& csv,
+                          const std::string& option) const {
+  return [peer = *this, kind, file, csv, option] {
+    return peer.us_per_query(kind, file, csv, option);
+  };
 }
 
 }  // namespace firmtouch::bench

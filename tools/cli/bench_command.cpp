@@ -23,7 +23,8 @@ Command bench_command() {
       R"(Without NAME: the benches there are. Without MODEL: the demo's part. Times are of one
 thread, in turn with the peer's in one run, medians of 5; only their ratio means
 something on another machine. A peer is another program that answers the same queries:
-    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`)",
+    COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`
+    COMMAND closest FILE in.csv --warm     the same; each query may use the last answer)",
       options_of_benches(
           {{"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"},
            {"--ticks", "N", "touch: ticks a model (default: 200,000; --long: 20,000,000)"},
