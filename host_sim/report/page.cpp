@@ -41,7 +41,8 @@ std::string visits_claim(const Summary& s) {
                "A visit is one tree node read by a query. A budget of work bounds the time of a "
                "tick: " +
                    std::to_string(s.budget_units) +
-                   " units here. A visit takes one unit; three visits of a mesh take one. Mean: " +
+                   " units here, base hulls apart. A visit takes one unit; three visits of a mesh "
+                   "take one. Mean: " +
                    fixed(s.mean_visits, 1) + " visits.");
 }
 
@@ -148,7 +149,7 @@ std::string table(const Report& report, const Scene3d& scene3d) {
     rows += row("Mean deviation on the guide", fixed(s.mean_guide_deviation_m * 1e3, 2) + " mm");
   rows += row("Visits a tick: mean, worst",
               fixed(s.mean_visits, 1) + ", " + std::to_string(s.worst_visits));
-  rows += row("Work a tick, at most", std::to_string(s.budget_units) + " units");
+  rows += row("Work a tick, at most", std::to_string(s.budget_units) + " units, base hulls apart");
   if (s.worst_instructions > 0) {
     rows += row(
         "Instructions a tick: mean, worst",

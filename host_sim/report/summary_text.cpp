@@ -98,8 +98,10 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
         "its force %.2f N a tick\n",
         s.guide_ticks, s.mean_guide_deviation_m * 1e3, s.worst_guide_deviation_m * 1e3,
         s.guide_step_N);
-  line("  visits a tick  mean %.1f, worst %u (tree nodes read); work of at most %u units\n",
-       s.mean_visits, s.worst_visits, s.budget_units);
+  line(
+      "  visits a tick  mean %.1f, worst %u (tree nodes read); work of at most %u units, base "
+      "hulls apart\n",
+      s.mean_visits, s.worst_visits, s.budget_units);
   if (s.has_surface)
     line(
         "  certificate    lower <= true distance <= upper bound: %zu of %zu checked ticks (oracle "

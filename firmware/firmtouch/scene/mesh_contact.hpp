@@ -49,8 +49,8 @@ struct MeshTouch {
 /// the base hull, as deep as the mesh's certificate allows. Force then begins early by the gap
 /// between hull and mesh, never late, and is never less deep than contact with the mesh. If the
 /// base hull's own query has no result either, contact is as without it.
-/// Bounds: one query of at most `budget` visits and about 380 instructions; with a base hull
-/// another query of as many visits, or 512 if that is more. Re-entrant for different touches.
+/// Bounds: one query of at most `budget` and about 380 instructions; with a base hull another of as
+/// many work units, or 1,280 if that is more. Re-entrant for different touches.
 template <bool kHasField = false, bool kHasBaseHull = false>
 void touch_mesh(const MeshObject& object, float radius_m, math::Vec3 position_m,
                 query::Budget budget, MeshTouch& touch, servo::LocalModel& model);

@@ -15,8 +15,8 @@ float free_part_of(const MeshObject& object, Way& way, query::Budget budget, uin
 
 /// A mesh as a shape that a proxy touches. The distance field and the base hull of the object are
 /// read only where the arguments say so, its materials if it is a MaterialMeshObject. Where the
-/// visits run out, a base hull certifies what it can: another query of as many visits, or 512 if
-/// that is more.
+/// work runs out, a base hull certifies what it can: another query of as many units, or 1,280 if
+/// that is more, beside those of `budget`.
 template <bool kHasField, bool kHasBaseHull, class Object = MeshObject>
 struct MeshTouchedWith {
   const Object& object;
