@@ -184,14 +184,14 @@ const page = {
     return lamp && this.state !== null && (this.store.u32[this.state + lamp.field.offset / 4] & lamp.mask) !== 0;
   },
   isEnabled() { return this.flag('enable'); },
-  async ask(what, request) {
+  async report(what, request) {
     try {
       const result = await request;
       if (result !== 0) this.say('warn', `${what}: ${kAckWords[result]}`);
     } catch (error) { this.say('warn', `${what}: ${error.message}`); }
   },
-  sendClear() { return this.ask('Faults not cleared', this.session.clearFaults()); },
-  panel(flags) { return this.ask('Not done', this.session.panel(flags)); },
+  sendClear() { return this.report('Faults not cleared', this.session.clearFaults()); },
+  panel(flags) { return this.report('Not done', this.session.panel(flags)); },
   showState() {
     if (this.state === null || !this.session.live) return;
     const state = this.session.field('output.state');

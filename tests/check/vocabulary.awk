@@ -67,14 +67,14 @@ function cut_c(text,    at, piece) {
       if (!at) return
       text = substr(text, at + 2)
       in_raw = 0
-    } else if (match(text, /R"\(|"([^"\\]|\\.)*"|'([^'\\]|\\.)'|\/\/.*|\/\*/)) {
+    } else if (match(text, is_js ? js_literal : cpp_literal)) {
       piece = substr(text, RSTART, RLENGTH)
       code = code substr(text, 1, RSTART - 1) " "
       text = substr(text, RSTART + RLENGTH)
       if (piece == "/*") in_comment = 1
       else if (piece == "R\"(") in_raw = 1
       else if (piece ~ /^\/\//) comment = comment " " piece
-      else if (piece ~ /^"/) message = message " " piece
+      else if (piece ~ /^"/ || is_js) message = message " " piece
     } else {
       code = code text
       return
@@ -84,6 +84,9 @@ function cut_c(text,    at, piece) {
 
 BEGIN {
   FS = "\t"
+  string = "\"([^\"\\\\]|\\\\.)*\""
+  cpp_literal = "R\"\\(|" string "|'([^'\\\\]|\\\\.)'|//.*|/\\*"
+  js_literal = string "|'([^'\\\\]|\\\\.)*'|`([^`\\\\]|\\\\.)*`|//.*|/\\*"
   while ((getline row < list) > 0) {
     if (row ~ /^#/ || row == "") continue
     count = split(row, cell, "\t")
@@ -107,7 +110,8 @@ BEGIN {
   in_comment = in_block = in_raw = 0
   for (s in last_line) last_line[s] = -1
   ++files
-  kind = file ~ /\.(hpp|cpp|h|c|html)$/ ? "c" : file ~ /\.md$/ ? "page" : "script"
+  is_js = file ~ /\.js$/
+  kind = file ~ /\.(hpp|cpp|h|c|html|js)$/ ? "c" : file ~ /\.md$/ ? "page" : "script"
   base = file
   sub(/.*\//, "", base)
   sub(/\..*/, "", base)

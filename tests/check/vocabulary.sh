@@ -4,7 +4,7 @@
 together=1
 check() {
   find README.md DESIGN.md SAFETY.md VERIFICATION.md CMakeLists.txt firmware hal host_sim tests tools -type f \
-    \( -name '*.md' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.h' -o -name '*.html' -o -name '*.sh' -o -name '*.awk' \
+    \( -name '*.md' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.h' -o -name '*.html' -o -name '*.js' -o -name '*.sh' -o -name '*.awk' \
     -o -name '*.cmake' -o -name CMakeLists.txt -o ! -name '*.*' \) ! -path 'tests/check/vocabulary.*' |
     LC_ALL=C sort | look
 }
@@ -15,6 +15,8 @@ name @ firmware/firmtouch/core/crc32.cpp @ int told_distance_m(); @ core/crc32.c
 name_in_capitals @ tests/core/status_test.cpp @ constexpr int kMostPlanes = 3; @ status_test.cpp:[0-9]+: name: k most
 comment @ firmware/firmtouch/core/crc32.cpp @ // The dearest query of all. @ core/crc32.cpp:[0-9]+: comment: dearest
 message @ tools/log/plot.cpp @ const char* text = "the mesh tells another side"; @ plot.cpp:[0-9]+: message: tells
+name_in_a_script_of_a_page @ host_sim/pages/view.js @ function askFor() {} @ pages/view.js:[0-9]+: name: ask
+message_in_a_script_of_a_page @ host_sim/pages/view.js @ const planted = 'the mesh tells another side'; @ pages/view.js:[0-9]+: message: tells
 page @ README.md @ It is asked for the undone collapses. @ README.md:[0-9]+: page: undone
 script_comment @ tests/check/run @ # judges the answers @ tests/check/run:[0-9]+: comment: judges
 END
