@@ -1,4 +1,5 @@
-# Compares the figures of README.md with those measured:  awk -f figures.awk TABLE README.md hull/README.md servo/README.md
+# Compares the figures of README.md with those measured:
+#     awk -f figures.awk TABLE README.md hull/README.md servo/README.md asset/README.md
 # TABLE: what tools/bench/cortex-m7, tools/check/image and the closed loop printed, one after the other. A row that differs
 # is printed as it should be.
 function commas(number,    text, out) {
@@ -9,6 +10,8 @@ function commas(number,    text, out) {
   }
   return text out
 }
+
+function trusted() { return flash["mps2-an500 mesh;guide;trusted)"] " instead of " flash["mps2-an500 mesh;guide)"] }
 
 FNR == 1 { ++files }
 files == 1 {
@@ -23,12 +26,13 @@ files == 1 {
   if ($1 == "tick" && $2 == "servo") servo = commas($3) " and worst " commas($4)
   if ($1 == "tick") measured["tick " $2] = "mean " commas($3) ", worst " commas($4)
   if ($1 == "shell" && hull == "") hull = "mean " commas($6) " and worst " commas($10)  # of the demo part, first
-  if ($1 == "flash") measured[board] = commas($2) " B, "
+  if ($1 == "flash") { measured[board] = commas($2) " B, "; flash[board] = commas($2) }
   if ($1 == "RAM") measured[board] = measured[board] commas($2) " B, "
   if ($1 == "worst" && $2 == "stack") measured[board] = measured[board] commas($3) " B"
   next
 }
 
+files == 5 { if (index($0, "takes " trusted() " bytes")) is_trusted = 1; next }
 files == 4 { if (index($0, "mean " servo " instructions")) is_servo = 1; next }
 files == 3 { if (hull != "" && index($0, hull)) is_hull = 1; next }
 
@@ -52,6 +56,7 @@ files == 3 { if (hull != "" && index($0, hull)) is_hull = 1; next }
 END {
   if (!is_hull) { print "firmware/firmtouch/hull/README.md: the base hull of the demo part was measured with " hull; bad = 1 }
   if (!is_servo) { print "firmware/firmtouch/servo/README.md: the servo at two rates was measured with mean " servo; bad = 1 }
+  if (!is_trusted) { print "firmware/firmtouch/asset/README.md: `mesh;guide` takes " trusted() " bytes of flash"; bad = 1 }
   split("demo part,demo part steps,tick mps2-an500,mps2-an500,netduinoplus2 mesh)", wanted, ",")
   for (i = 1; i in wanted; ++i) {
     if (!(wanted[i] in measured)) { print "the table holds no figures of " wanted[i]; bad = 1 }
