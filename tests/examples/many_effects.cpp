@@ -28,8 +28,8 @@ uint32_t now = 0;
 math::Vec3 tick(math::Vec3 position_m, math::Vec3 velocity_mps) {
   servo::LocalModel model;
   scene::begin_model(model, position_m, now, /*age_ticks*/ 2);
-  scene::add_contact(model, position_m, /*radius_m*/ 0,
-                     {position_m.z, {0, 0, 1}, /*sign*/ 1, /*lower_m*/ 0}, kTable);
+  scene::add_contact(model, position_m, /*radius_m*/ 0, {position_m.z, {0, 0, 1}, /*sign*/ 1},
+                     kTable);
   scene::EffectSum sum(kSettings.force_limit_N, servo::contact_N(model, position_m, velocity_mps));
   sum.add(scene::detents_at(kNotches, position_m), notches);
   sum.add(scene::speed_wall_N(kOil, velocity_mps));

@@ -24,7 +24,7 @@ servo::LocalModel fresh(math::Vec3 position_m) {
 }
 
 scene::SurfacePoint surface(float distance_m, math::Vec3 normal, int8_t sign) {
-  return {distance_m, normal, sign, distance_m < 0 ? -distance_m : distance_m};
+  return {distance_m, normal, sign};
 }
 
 bool is_near(float a, float b) { return a - b < 1e-6f && b - a < 1e-6f; }
@@ -54,7 +54,6 @@ TEST(ContactPushesBackByTheDepthOfTheSphere) {
   CHECK(is_near(servo::evaluate(model, {0, 0, 0.004f}, {}).z, 1.0f));
   CHECK(is_near(servo::evaluate(model, {0, 0, 0.003f}, {}).z, 2.0f));  // at a fresher position
   CHECK_EQ(servo::evaluate(model, {0, 0, 0.0051f}, {}).z, 0.0f);
-  CHECK_EQ(model.free_radius_m, 0.004f);
 }
 
 TEST(ContactInsideReachesRadiusAndDepthDeep) {
@@ -68,7 +67,6 @@ TEST(UnknownSideIsNeverPushedOn) {
   servo::LocalModel model = fresh({});
   CHECK_EQ(scene::add_contact(model, {}, 0.005f, surface(0.0f, {0, 0, 1}, 0), kMaterial), 0.0f);
   CHECK_EQ(model.plane_count, 0u);
-  CHECK_EQ(model.free_radius_m, 0.0f);
 }
 
 TEST(NormalsThatAreNoneMakeNoPlane) {
@@ -83,9 +81,8 @@ TEST(NormalsThatAreNoneMakeNoPlane) {
   const float distances[] = {nan, inf, -inf};
   for (const float distance : distances) {
     servo::LocalModel model = fresh({});
-    CHECK_EQ(scene::add_contact(model, {}, 0.005f, {distance, {0, 0, 1}, 1, nan}, kMaterial), 0.0f);
+    CHECK_EQ(scene::add_contact(model, {}, 0.005f, {distance, {0, 0, 1}, 1}, kMaterial), 0.0f);
     CHECK_EQ(model.plane_count, 0u);
-    CHECK_EQ(model.free_radius_m, 0.0f);
     CHECK(servo::is_sound(model));
   }
 }
@@ -100,15 +97,6 @@ TEST(OfManyContactsTheDeepestAreKept) {
   CHECK_EQ(model.plane_count, servo::kMaxPlanes);
   // 4 mm, 6 mm and 3 mm deep, a newton a millimetre.
   CHECK(is_near(servo::evaluate(model, {}, {}).z, 13.0f));
-}
-
-TEST(FreeRadiusIsThatOfTheNearestShape) {
-  servo::LocalModel model = fresh({});
-  CHECK_EQ(model.free_radius_m, FLT_MAX);
-  (void)scene::add_contact(model, {}, 0.0f, surface(0.5f, {0, 0, 1}, 1), kMaterial);
-  (void)scene::add_contact(model, {}, 0.0f, surface(0.25f, {0, 1, 0}, 1), kMaterial);
-  (void)scene::add_contact(model, {}, 0.0f, surface(0.75f, {1, 0, 0}, 1), kMaterial);
-  CHECK_EQ(model.free_radius_m, 0.25f);
 }
 
 TEST(SecondGuideAndFourthPlaneAreRefused) {
@@ -132,8 +120,7 @@ TEST(UsersOwnShapeComposesWithTheRest) {
     const float out_m = math::square_root(p_m.x * p_m.x + p_m.y * p_m.y + p_m.z * p_m.z);
     if (!(out_m > 1e-6f)) return;
     const math::Vec3 inward{-p_m.x / out_m, -p_m.y / out_m, -p_m.z / out_m};
-    (void)scene::add_contact(model, p_m, 0.002f, {0.02f - out_m, inward, 1, 0.02f - out_m},
-                             kMaterial);
+    (void)scene::add_contact(model, p_m, 0.002f, {0.02f - out_m, inward, 1}, kMaterial);
   };
   const math::Vec3 p_m{0, 0.019f, 0};
   servo::LocalModel model = fresh(p_m);

@@ -248,13 +248,13 @@ TEST(InFreeSpaceOnlyWhatMayBeTouchedIsLookedFor) {
     const query::Certificate& certificate = tool.touch.closest.certificate;
     const double depth_m = std::max(0.0, 0.003 - static_cast<double>(p_m.z - kHalf));
     CHECK_LE(far_from(force_N, {0, 0, static_cast<float>(depth_m * 1000)}), 1e-3);
-    CHECK_LE(tool.model.free_radius_m, std::fabs(height_m) + 1e-6f);
+    CHECK_LE(tool.touch.closest.certificate.lower_m, std::fabs(height_m) + 1e-6f);
     if (i == 0) continue;  // nothing is known yet: everything is looked at
     if (height_m > reach_m * 1.001f) {
       ++free_ticks;
       CHECK_EQ(tool.model.plane_count, 0u);
       CHECK_EQ(certificate.sign, 1);
-      CHECK_LE(reach_m * 0.99f, tool.model.free_radius_m);
+      CHECK_LE(reach_m * 0.99f, tool.touch.closest.certificate.lower_m);
       CHECK_LE(certificate.steps, 20u);
     } else if (std::fabs(height_m) < reach_m * 0.999f) {
       CHECK(certificate.exact);
@@ -287,8 +287,8 @@ TEST(Field_OneLookUpATickInFreeSpace_SameContact) {
       ++free_ticks;
       CHECK_EQ(tool.model.plane_count, 0u);
       CHECK_EQ(certificate.sign, 1);
-      CHECK_GT(tool.model.free_radius_m, reach_m);
-      CHECK_LE(tool.model.free_radius_m, height_m * 1.00001f);
+      CHECK_GT(certificate.lower_m, reach_m);
+      CHECK_LE(tool.touch.closest.certificate.lower_m, height_m * 1.00001f);
       CHECK_GE(tool.touch.closest.distance_m, height_m * 0.99999f);
     } else {  // the way to a cell's centre is at most 0.87 cells
       CHECK_LE(height_m, reach_m + 1.8f * cell_m);
@@ -313,7 +313,7 @@ TEST(UnsignedField_BoundsFreeSpaceOnly_NoForce) {
   Tool tool;
   (void)tool.force_N(rig.object, {0, 0, 3 * kHalf});
   CHECK_EQ(tool.touch.closest.certificate.steps, 1u);
-  CHECK_GT(tool.model.free_radius_m, 1.9f * kHalf);
+  CHECK_GT(tool.touch.closest.certificate.lower_m, 1.9f * kHalf);
   CHECK_LE(far_from(tool.force_N(rig.object, {0, 0, kHalf - 0.001f}), {0, 0, 0}), 0.0);
   CHECK_EQ(tool.touch.closest.certificate.sign, 0);
 }
@@ -349,7 +349,7 @@ TEST(HostilePlacesLeaveASoundModel) {
       if (!(std::fabs(value) <= 1e4f)) CHECK_EQ(tool.touch.penetration_m, 0.0f);
       CHECK(std::isfinite(tool.touch.closest.distance_m));
       if (std::isfinite(value)) CHECK(std::isfinite(force_N.x));
-      CHECK_GE(tool.model.free_radius_m, 0.0f);
+      CHECK_GE(tool.touch.closest.certificate.lower_m, 0.0f);
     }
   }
   mesh::View none;

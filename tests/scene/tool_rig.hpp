@@ -64,7 +64,6 @@ struct ToolRig : ProxyRig {
     contact.position_m = hand_m;
     contact.proxy_m = touch.anchor_m;
     model = {};
-    model.free_radius_m = 1e30f;
     scene::touch_by_tool(contact, stored(), turn.rotation, *this, touch, model);
     contact.has_proxy = model.spring.is_used;
   }

@@ -189,7 +189,6 @@ struct LateTool : ToolRig {
       seen_m_[i] = of(i).position_m;
     }
     model = {};
-    model.free_radius_m = 1e30f;
     scene::touch_by_tool(contact, stored(), turn.rotation, *this, touch, model);
     for (uint32_t i = 0; i < spheres.size(); ++i) {
       see(i);

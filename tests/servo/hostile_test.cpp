@@ -57,7 +57,8 @@ void for_each_float(Visit visit) {
        at += 4) {
     visit(model + at);
   }
-  for (size_t at = 0; at < 16; at += 4) visit(model + offsetof(servo::LocalModel, made_at_m) + at);
+  for (size_t at = 0; at < sizeof(math::Vec3); at += 4)
+    visit(model + offsetof(servo::LocalModel, made_at_m) + at);
   const size_t input = offsetof(Everything, input);
   for (size_t at = 0; at < offsetof(servo::StepInput, tick); at += 4) visit(input + at);
 }
@@ -103,7 +104,7 @@ TEST(EverySpecialInEveryFieldKeepsTheForceFiniteLimitedAndSlow) {
     }
   });
   CHECK_EQ(broken, 0u);
-  CHECK_EQ(fields, 50u);
+  CHECK_EQ(fields, 49u);
   CHECK_GE(faulted, 50u * 4u);
 }
 

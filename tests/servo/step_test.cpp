@@ -20,7 +20,6 @@ servo::LocalModel floor_model() {  // free above z = 0
   model.plane[0].stiffness_N_per_m = 1000.0f;
   model.plane[0].damping_N_s_per_m = 2.0f;
   model.plane_count = 1;
-  model.free_radius_m = 0.01f;
   model.expires_tick = 1000000;
   return model;
 }

@@ -27,7 +27,6 @@ void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
   const uint32_t sequence = model.sequence + 1;
   model = servo::LocalModel{};
   model.made_at_m = position_m;
-  model.free_radius_m = FLT_MAX;  // until a shape is added
   model.sequence = sequence;
   model.made_tick = tick;
   model.expires_tick = tick + age_ticks;
@@ -48,8 +47,6 @@ bool add_guide(servo::LocalModel& model, const servo::GuideLine& guide) {
 
 float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_m,
                   const SurfacePoint& surface, const Material& material) {
-  const float free_m = surface.lower_m > 0.0f ? surface.lower_m : 0.0f;
-  if (!(model.free_radius_m <= free_m)) model.free_radius_m = free_m;
   if (surface.sign == 0) return 0.0f;
   const float size2 = math::dot(surface.normal, surface.normal);
   if (!(size2 >= 0.98f) || !(size2 <= 1.02f)) return 0.0f;

@@ -25,7 +25,6 @@ struct SurfacePoint {
   float distance_m = 0;  // signed: negative inside
   math::Vec3 normal;     // unit, outward, device frame
   int8_t sign = 0;       // +1, -1; 0 = unknown: no plane is made
-  float lower_m = 0;     // certified: no point of the surface is nearer
 };
 
 /// Empties the model. It is about `position_m` (device frame), has the next sequence number, and

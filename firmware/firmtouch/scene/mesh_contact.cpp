@@ -71,7 +71,6 @@ bool query_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, M
   surface.distance_m = off_m;
   // What the mesh query has proven holds as well.
   if (certificate.sign > 0 && certificate.lower_m > off_m) surface.distance_m = certificate.lower_m;
-  if (is_outside && found.lower_m > surface.lower_m) surface.lower_m = found.lower_m;
   return true;
 }
 
@@ -100,7 +99,6 @@ void touch_mesh(const MeshObject& object, float radius_m, Vec3 position_m, query
 
   SurfacePoint surface;
   surface.sign = certificate.sign;
-  surface.lower_m = certificate.lower_m;
   surface.distance_m = touch.closest.distance_m;
   if (certificate.sign < 0 && !certificate.exact) surface.distance_m = -certificate.lower_m;
   // Outside, nothing within reach: the direction to the surface is unknown, and not needed. Inside,

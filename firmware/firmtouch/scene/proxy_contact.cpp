@@ -41,9 +41,8 @@ void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel&
     material.stiffness_N_per_m = kLeadOut_N / near.distance_m;
   material.stiffness_N_per_m *= rise;
   material.damping_N_s_per_m *= rise;
-  touch.penetration_m =
-      add_contact(model, contact.position_m, 0.0f,
-                  {-near.distance_m, near.outward, near.sign, near.lower_m}, material);
+  touch.penetration_m = add_contact(model, contact.position_m, 0.0f,
+                                    {-near.distance_m, near.outward, near.sign}, material);
 }
 
 }  // namespace
@@ -99,7 +98,6 @@ void end_proxy_contact(const ProxyContact& contact, const ProxyMoved& moved, Pro
   spring.reach_m = math::larger(reach_m, 0.0f);
   spring.stiffness_N_per_m = touch.material.stiffness_N_per_m;
   spring.damping_N_s_per_m = touch.material.damping_N_s_per_m;
-  if (!(model.free_radius_m <= proxy.free_m)) model.free_radius_m = proxy.free_m;
   if (proxy.is_loaded) touch.penetration_m = math::length(proxy.position_m - contact.position_m);
 }
 

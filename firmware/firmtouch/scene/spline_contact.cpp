@@ -94,7 +94,6 @@ void touch_spline(const SplineObject& object, float radius_m, Vec3 position_m, q
   const float extent_m = object.surface->head().extent_m;
 
   SurfacePoint surface;
-  surface.lower_m = certificate.lower_m;
   surface.distance_m = touch.closest.distance_m;
   if (object.is_closed) {
     touch.is_from_outside = false;

@@ -54,7 +54,7 @@ ToolTick::ToolTick(const ProxyContact& contact, StoredTool spheres, const math::
       work_left_(contact.settings.budget.work) {
   const float share = 1.0f / static_cast<float>(spheres.size());
   contact_.material = {whole_.stiffness_N_per_m * share, whole_.damping_N_s_per_m * share};
-  made_.spring.reach_m = made_.free_radius_m = FLT_MAX;
+  made_.spring.reach_m = FLT_MAX;
   made_.made_at_m = hand_m_;
   touch_.steps = touch_.work = 0;
   for (uint32_t i = 0; i < spheres.size(); ++i) {
@@ -121,7 +121,6 @@ bool ToolTick::next() {
 
 void ToolTick::end(const ProxyMoved& moved) {
   servo::LocalModel of_sphere;
-  of_sphere.free_radius_m = FLT_MAX;
   ProxyTouch& touch = touch_.sphere[sphere_];
   end_proxy_contact(contact_, moved, touch, of_sphere);
   is_uncertain_ |= of_sphere.is_uncertain;
@@ -156,7 +155,6 @@ void ToolTick::add(uint32_t sphere) {
   if (!is_free) return;
   made_.spring.is_used = true;
   if (room_m < made_.spring.reach_m) made_.spring.reach_m = room_m;
-  if (proxy.free_m < made_.free_radius_m) made_.free_radius_m = proxy.free_m;
   if (!proxy.is_loaded) return;
   made_.spring.is_held = true;
   const Vec3 off_m = proxy.position_m - touch_.place_m[sphere];
@@ -204,7 +202,6 @@ void ToolTick::finish(servo::LocalModel& model) {
   model.spring = made_.spring;
   model.is_uncertain = is_uncertain_;
   for (uint32_t i = 0; i < made_.plane_count; ++i) (void)add_plane(model, made_.plane[i]);
-  if (made_.free_radius_m < model.free_radius_m) model.free_radius_m = made_.free_radius_m;
 }
 
 }  // namespace firmtouch::scene

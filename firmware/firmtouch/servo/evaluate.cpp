@@ -32,7 +32,6 @@ bool is_sound(const ProxySpring& spring) {
 
 bool is_sound(const LocalModel& model) {
   if (model.plane_count > kMaxPlanes || !is_near(model.made_at_m)) return false;
-  if (!math::is_up_to(model.free_radius_m, FLT_MAX)) return false;
   for (uint32_t i = 0; i < model.plane_count; ++i) {
     const ContactPlane& plane = model.plane[i];
     if (!is_unit(plane.normal) || !math::is_within(plane.offset_m, kMaxPosition_m)) return false;

@@ -65,7 +65,6 @@ struct LocalModel {
   bool is_uncertain = false;  // the budget did not suffice to know where the surfaces are
   bool is_squeezed = false;   // objects leave the proxy no room
   math::Vec3 made_at_m;
-  float free_radius_m = 0;  // certified: no surface nearer to made_at_m than this
   uint32_t sequence = 0;
   uint32_t made_tick = 0;     // another one for each model
   uint32_t expires_tick = 0;  // after it the model is stale, and the force is ramped down

@@ -17,6 +17,5 @@ firmtouch::scene::SurfacePoint closest_on(const Torus& torus, firmtouch::math::V
   point.distance_m = from_core_m - torus.tube_radius_m;
   point.normal = {x * outward, y * outward, z / from_core_m};
   point.sign = point.distance_m < 0 ? -1 : 1;
-  point.lower_m = (point.distance_m < 0 ? -point.distance_m : point.distance_m) * 0.9999f;
   return point;
 }

@@ -15,7 +15,6 @@ void press_wall(const ModelRequest& request, const params::Values& values, Model
   surface.distance_m = -0.002f;
   surface.normal = {0, 0, 1};
   surface.sign = -1;
-  surface.lower_m = 0.002f;
   const scene::Material material{values[params::kContactStiffness],
                                  values[params::kContactDamping]};
   scene::add_contact(result.model, request.position_m, 0, surface, material);
