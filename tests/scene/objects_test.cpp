@@ -3,90 +3,24 @@
 
 #include "firmtouch/math/elementary.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/servo/evaluate.hpp"
 #include "firmtouch/servo/fault.hpp"
 #include "firmtouch/servo/step.hpp"
 #include "harness/test.hpp"
+#include "scene/boxes_rig.hpp"
 #include "servo/specials.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
 using math::Vec3;
-
-namespace {
-
-constexpr float kRadius_m = 0.003f, kTick_s = 0.001f;
-
-scene::Object at(Vec3 place_m, Vec3 velocity_mps = {}) {
-  scene::Object object;
-  object.pose.translation_m = place_m;
-  object.twist.velocity_mps = velocity_mps;
-  return object;
-}
-
-// Boxes of 0.2 x 0.2 x 0.02 m, or all that is below their tops, or balls, and a tool with its
-// servo.
-struct Boxes {
-  scene::SphereTouched ball{{}, 0.02f};
-  scene::BoxTouched box{{}, {0.1f, 0.1f, 0.01f}};
-  scene::PlaneTouched top{{0, 0, 0.01f}, {0, 0, 1}};
-  scene::Object object[scene::kMaxObjects];
-  scene::ObjectPair pair[scene::kMaxObjects];
-  scene::ObjectsTouch touch;
-  scene::ProxyContact contact;
-  servo::LocalModel model;
-  servo::State state;
-  servo::Settings limits{8.0f, 1e5f, 0.0f, kTick_s, {1.0f, 0.0f}};
-  bool is_plane = false, is_ball = false;
-  servo::StepOutput output;
-  uint32_t count = 0, now = 0, queries = 0;
-
-  Boxes() {
-    contact.settings.radius_m = kRadius_m;
-    contact.material.stiffness_N_per_m = 1000;
-    contact.is_on = true;
-    contact.passed_s = kTick_s;
-  }
-  scene::Object& add(const scene::Object& wanted) {
-    CHECK(scene::set_object(wanted, object[count]) == scene::ObjectProblem::kNone);
-    pair[count].pose = object[count].pose;
-    return object[count++];
-  }
-  scene::Near near(uint32_t, Vec3 x_m, query::Budget budget, float needed_m) {
-    ++queries;
-    if (is_ball) return ball.near(x_m, budget, needed_m);
-    return is_plane ? top.near(x_m, budget, needed_m) : box.near(x_m, budget, needed_m);
-  }
-  float free_part(uint32_t, const scene::Way& way, query::Budget budget, uint32_t& work) const {
-    if (is_ball) return ball.free_part(way, budget, work);
-    return is_plane ? top.free_part(way, budget, work) : box.free_part(way, budget, work);
-  }
-  float size_m() const { return 0.5f; }
-
-  void tick(Vec3 hand_m) {
-    for (uint32_t i = 0; i < count; ++i) scene::advance(object[i], kTick_s);
-    contact.position_m = hand_m;
-    contact.proxy_m = output.proxy_m;
-    contact.has_proxy = state.has_proxy;
-    scene::begin_model(model, hand_m, now, 2);
-    scene::touch_objects(contact, {object, pair, count}, *this, touch, model);
-    servo::StepInput input;
-    input.position_m = hand_m;
-    input.tick = now++;
-    input.enable = true;
-    output = servo::step(state, limits, model, input);
-  }
-};
-
-bool is_near(float a, float b, float by) { return a - b <= by && b - a <= by; }
-
-}  // namespace
+using scene_boxes::Boxes;
+using scene_boxes::is_near;
+using scene_boxes::object_at;
 
 TEST(Objects_EmptySetUnderLoadAndAnyRadius_LeavesTheToolAtTheHand) {
   const float radii_m[] = {0.003f, 0, -1, 1e9f, __builtin_inff(), __builtin_nanf("")};
   for (const float radius_m : radii_m) {
     Boxes boxes;
-    boxes.add(at({0, 0, 0}));
+    boxes.add(object_at({0, 0, 0}));
     for (float z_m = 0.02f; z_m > 0.008f; z_m -= 0.001f) boxes.tick({0, 0, z_m});
     CHECK(boxes.output.force_N.z > 1.0f);
     boxes.contact.settings.radius_m = radius_m;
@@ -102,8 +36,8 @@ TEST(Objects_EmptySetUnderLoadAndAnyRadius_LeavesTheToolAtTheHand) {
 // device frame.
 TEST(Objects_HolderThatIsRemoved_LeavesTheToolOnItsSide) {
   Boxes boxes;
-  boxes.add(at({0, 0, 0.03f}));
-  boxes.add(at({0, 0, 0.05f}));
+  boxes.add(object_at({0, 0, 0.03f}));
+  boxes.add(object_at({0, 0, 0.05f}));
   for (float z_m = 0.07f; z_m > 0.055f; z_m -= 0.001f) boxes.tick({0, 0, z_m});
   CHECK(is_near(boxes.output.proxy_m.z, 0.063f, 1e-5f));
   --boxes.count;
@@ -115,13 +49,13 @@ TEST(Objects_HolderThatIsRemoved_LeavesTheToolOnItsSide) {
 
 // A wall that rises by far more than a small tool's size in a tick.
 TEST(Objects_WallThatRisesThroughAHeldTool_PushesItInEachTick) {
-  const float radii_m[] = {kRadius_m, 0.00002f}, speeds_mps[] = {0.05f, 0.5f, 5.0f};
+  const float radii_m[] = {Boxes::kRadius_m, 0.00002f}, speeds_mps[] = {0.05f, 0.5f, 5.0f};
   for (uint32_t run = 0; run < 6; ++run) {
     Boxes boxes;
     const float radius_m = boxes.contact.settings.radius_m = radii_m[run % 2];
     const float speed_mps = speeds_mps[run / 2];
-    boxes.add(at({0, 0, -0.02f}, {0, 0, speed_mps}));
-    for (float way_m = 0; way_m < 0.04f; way_m += speed_mps * kTick_s) {
+    boxes.add(object_at({0, 0, -0.02f}, {0, 0, speed_mps}));
+    for (float way_m = 0; way_m < 0.04f; way_m += speed_mps * Boxes::kTick_s) {
       boxes.tick({0.01f, 0.02f, 0.0f});
       const float top_m = boxes.object[0].pose.translation_m.z + 0.01f;
       const float wanted_N = 1000 * math::larger(top_m + radius_m, 0.0f);
@@ -136,7 +70,7 @@ TEST(Objects_WallThatRisesThroughAHeldTool_PushesItInEachTick) {
 TEST(Objects_WallThatLiftsTheHand_IsNotCountedAsEnergyOfContact) {
   Boxes boxes;
   boxes.limits.energy.reservoir_J = 0.0015f;
-  boxes.add(at({0, 0, -0.02f}, {0, 0, 0.2f}));
+  boxes.add(object_at({0, 0, -0.02f}, {0, 0, 0.2f}));
   float hand_m = -0.005f;
   for (int tick = 0; tick < 300; ++tick) {  // the hand keeps 3.2 mm behind: 3.2 N lift it by 40 mm
     const float top_m = boxes.object[0].pose.translation_m.z + 0.01f;
@@ -155,7 +89,7 @@ TEST(Objects_BallThatTurns_PushesLikeOneThatStands) {
     Boxes boxes;
     boxes.is_ball = true;
     boxes.limits.energy.reservoir_J = 0.0006f;
-    boxes.add(at({}));
+    boxes.add(object_at({}));
     boxes.object[0].twist.turn_rad_per_s = {0, turn_rad_per_s, 0};
     for (int tick = 0; tick < 2000; ++tick) {  // 1 mm deep
       const float left_m = tick < 300 ? 1e-5f * static_cast<float>(300 - tick) : 0.0f;
@@ -178,7 +112,7 @@ TEST(Objects_WallThatSlides_GivesNoMoreThanOneThatStands) {
     boxes.is_plane = true;
     boxes.contact.material.stiffness_N_per_m = 8000;
     boxes.limits.energy = {0.0006f, kFriction_N_per_m};
-    boxes.add(at({0, 0, -0.01f}, {speed_mps, 0, 0}));
+    boxes.add(object_at({0, 0, -0.01f}, {speed_mps, 0, 0}));
     float given_J = 0, before_m = 0, last_m = 0.004f;
     boxes.tick({0, 0, last_m});
     for (int tick = 0; tick < 4000; ++tick) {
@@ -201,7 +135,7 @@ TEST(Objects_Belt_DragsByItsFriction) {
   const float frictions[] = {0.0f, 0.5f};
   for (const float friction : frictions) {
     Boxes boxes;
-    boxes.add(at({0, 0, -0.01f}));
+    boxes.add(object_at({0, 0, -0.01f}));
     boxes.object[0].friction_static = boxes.object[0].friction_dynamic = friction;
     boxes.tick({0, 0, 0.005f});
     for (int tick = 0; tick < 10; ++tick) boxes.tick({0, 0, 0});  // 3 N
@@ -218,7 +152,7 @@ TEST(Objects_Belt_DragsByItsFriction) {
 
 TEST(Objects_TurningTable_CarriesAStuckToolRound) {
   Boxes boxes;
-  boxes.add(at({0, 0, -0.01f}));
+  boxes.add(object_at({0, 0, -0.01f}));
   boxes.object[0].friction_static = boxes.object[0].friction_dynamic = 2.0f;
   Vec3 hand_m{0.05f, 0, 0.005f};
   boxes.tick(hand_m);
@@ -233,7 +167,7 @@ TEST(Objects_TurningTable_CarriesAStuckToolRound) {
   }
   CHECK(is_near(boxes.output.proxy_m.x, 0.05f * math::cosine(1), 1e-5f));
   CHECK(is_near(boxes.output.proxy_m.y, 0.05f * math::sine(1), 1e-5f));
-  CHECK(is_near(boxes.output.proxy_m.z, kRadius_m, 2e-6f));
+  CHECK(is_near(boxes.output.proxy_m.z, Boxes::kRadius_m, 2e-6f));
 }
 
 // Two walls that close at 0.5 m/s on a tool between them, with and without a hand that presses.
@@ -241,8 +175,8 @@ TEST(Objects_TwoClosingWalls_SqueezeAndLetGo) {
   const float hands_m[] = {0.0f, -0.004f};
   for (const float hand_z_m : hands_m) {
     Boxes boxes;
-    boxes.add(at({0, 0, -0.03f}, {0, 0, 0.25f}));
-    boxes.add(at({0, 0, 0.03f}, {0, 0, -0.25f}));
+    boxes.add(object_at({0, 0, -0.03f}, {0, 0, 0.25f}));
+    boxes.add(object_at({0, 0, 0.03f}, {0, 0, -0.25f}));
     uint32_t squeezed = 0, latched = 0;
     float gap_m = 0;
     for (uint32_t tick = 1; tick <= 100; ++tick) {
@@ -261,8 +195,8 @@ TEST(Objects_TwoClosingWalls_SqueezeAndLetGo) {
     }
     CHECK_EQ(boxes.output.faults, servo::kFaultSqueezed);
     CHECK_EQ(latched, squeezed);
-    CHECK_LE(gap_m, 2 * kRadius_m);
-    CHECK_GE(gap_m, 1.8f * kRadius_m - 0.0005f);
+    CHECK_LE(gap_m, 2 * Boxes::kRadius_m);
+    CHECK_GE(gap_m, 1.8f * Boxes::kRadius_m - 0.0005f);
   }
 }
 
@@ -270,8 +204,8 @@ TEST(Objects_TwoClosingWalls_SqueezeAndLetGo) {
 TEST(Objects_WallFromTheSide_PushesAToolAlongTheFloor) {
   Boxes boxes;
   boxes.is_plane = true;
-  boxes.add(at({0, 0, -0.01f}));
-  scene::Object wall = at({-0.03f, 0, 0}, {0.3f, 0, 0});
+  boxes.add(object_at({0, 0, -0.01f}));
+  scene::Object wall = object_at({-0.03f, 0, 0}, {0.3f, 0, 0});
   wall.pose.rotation = {{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}};
   boxes.add(wall);
   boxes.tick({0, 0, 0.005f});
@@ -279,8 +213,8 @@ TEST(Objects_WallFromTheSide_PushesAToolAlongTheFloor) {
     boxes.tick({0, 0, 0});
     const float face_m = boxes.object[1].pose.translation_m.x + 0.01f;
     CHECK(!boxes.touch.is_squeezed);
-    CHECK(is_near(boxes.output.proxy_m.x, math::larger(face_m + kRadius_m, 0.0f), 3e-6f));
-    CHECK(is_near(boxes.output.proxy_m.z, kRadius_m, 3e-6f));
+    CHECK(is_near(boxes.output.proxy_m.x, math::larger(face_m + Boxes::kRadius_m, 0.0f), 3e-6f));
+    CHECK(is_near(boxes.output.proxy_m.z, Boxes::kRadius_m, 3e-6f));
   }
   CHECK_EQ(boxes.output.faults, 0u);
 }
@@ -290,7 +224,7 @@ TEST(Objects_FarOnes_AreNotQueried) {
   Boxes boxes;
   for (uint32_t i = 0; i < scene::kMaxObjects; ++i) {
     const float far_m = 0.1f * static_cast<float>(i);
-    boxes.add(at({0, 0, -0.01f - far_m}, {0, 0, i == 0 ? 0 : -0.001f}));
+    boxes.add(object_at({0, 0, -0.01f - far_m}, {0, 0, i == 0 ? 0 : -0.001f}));
   }
   boxes.tick({0, 0, 0.01f});
   boxes.tick({0, 0, 0});
@@ -304,8 +238,8 @@ TEST(Objects_FarOnes_AreNotQueried) {
 
 TEST(Objects_Material_IsThatOfTheObjectThatIsMet) {
   Boxes boxes;
-  boxes.add(at({0, 0, -0.01f}));
-  boxes.add(at({0, 0, 0.03f}));
+  boxes.add(object_at({0, 0, -0.01f}));
+  boxes.add(object_at({0, 0, 0.03f}));
   boxes.object[1].stiffness_N_per_m = 2000.0f / 3;  // 400 N/m in series with the tool's
   boxes.tick({0, 0, 0.005f});
   for (int tick = 0; tick < 5; ++tick) boxes.tick({0, 0, 0.001f});
@@ -319,7 +253,7 @@ TEST(Objects_Material_IsThatOfTheObjectThatIsMet) {
 TEST(Objects_CoincidentAndNested_AreTouchedAsOne) {
   Boxes boxes;
   const float places_m[] = {-0.01f, -0.01f, -0.015f};
-  for (const float place_m : places_m) boxes.add(at({0, 0, place_m}));
+  for (const float place_m : places_m) boxes.add(object_at({0, 0, place_m}));
   for (int tick = 0; tick < 20; ++tick) boxes.tick({0, 0, -0.002f});
   CHECK_GE(boxes.output.force_N.z, 0.001f);
   CHECK_LE(boxes.output.force_N.z, 1.0f);
@@ -338,7 +272,7 @@ TEST(Objects_NoObject_IsAir) {
 
 TEST(Objects_PoseTwistOrMaterialOutOfRange_AreRefusedByName) {
   const auto refused = [](auto change) {
-    scene::Object wanted = at({0, 0, 0.1f}), kept = at({0, 0, 0.2f}, {1, 0, 0});
+    scene::Object wanted = object_at({0, 0, 0.1f}), kept = object_at({0, 0, 0.2f}, {1, 0, 0});
     change(wanted);
     const scene::ObjectProblem problem = scene::set_object(wanted, kept);
     CHECK_EQ(kept.pose.translation_m.z, 0.2f);
@@ -367,8 +301,8 @@ TEST(Objects_EverySpecialInPoseTwistAndPair_LeavesASoundModelAndALimitedForce) {
   for (uint32_t field = 0; field < 12; ++field) {
     for (const uint32_t bits : firmtouch::test::kSpecialBits) {
       Boxes boxes;
-      boxes.add(at({0, 0, -0.01f}, {0, 0, 0.01f}));
-      boxes.add(at({0, 0, 0.1f}));
+      boxes.add(object_at({0, 0, -0.01f}, {0, 0, 0.01f}));
+      boxes.add(object_at({0, 0, 0.1f}));
       boxes.tick({0, 0, 0.005f});
       for (int tick = 0; tick < 5; ++tick) boxes.tick({0, 0, 0});
       const float value = math::float_of(bits);

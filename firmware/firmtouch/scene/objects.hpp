@@ -189,15 +189,21 @@ struct NearestObject {
   float size_m() const { return shapes.size_m(); }
 };
 
+/// Before a tick: objects without stiffness are left out of it. One that gains or loses its
+/// stiffness does so without load.
+void leave_out_air(const ObjectSet& set, const Proxy& proxy);
+
 /// Contact of a sphere with several objects, as touch_by_proxy() with one. Friction is the larger
 /// of that in `contact` and of the object that is touched; their stiffnesses are in series. A far
-/// object costs a comparison. Objects that leave the proxy less than 0.9 of its radius squeeze it:
-/// model.is_squeezed, which servo makes a fault. The proxy crosses none of them.
+/// object, or one without stiffness, costs a comparison. Objects that leave the proxy less than 0.9
+/// of its radius squeeze it: model.is_squeezed, which servo makes a fault. The proxy crosses none
+/// of them.
 /// Bounds: scene/proxy.hpp, and at most one query an object to carry the proxy; all share the
 /// budget. Re-entrant for different tools.
 template <class Shapes>
 void touch_objects(const ProxyContact& contact, const ObjectSet& set, Shapes& shapes,
                    ObjectsTouch& touch, servo::LocalModel& model) {
+  leave_out_air(set, touch.touch.proxy);
   ObjectsTick tick(contact, set, shapes.size_m(), touch);
   while (tick.carry()) {
     const ObjectQuery& q = tick.query();

@@ -20,6 +20,18 @@ constexpr float kAsNear = 1e-6f;  // of the size of the scene
 
 }  // namespace
 
+// A ball without end about an object of air, so that it is never the nearest.
+void leave_out_air(const ObjectSet& set, const Proxy& proxy) {
+  if (proxy.is_loaded) return;
+  for (uint32_t i = 0; i < set.count; ++i) {
+    ObjectPair& pair = set.pair[i];
+    const bool is_air = !(set.object[i].stiffness_N_per_m > 0.0f);
+    if (is_air == (pair.lower_m >= FLT_MAX)) continue;
+    pair.lower_m = pair.left_m = is_air ? FLT_MAX : 0.0f;
+    pair.sign = 1;  // also of a solid: without a bound it is queried
+  }
+}
+
 // While the side of the hand is not known, every object matters whose side is not.
 void ObjectsTick::begin_query(Vec3 x_m, query::Budget budget, float needed_m) {
   at_ = place_in(touch_.carrier, x_m);
@@ -46,7 +58,7 @@ bool ObjectsTick::next() {
     uint32_t i = 0;
     for (uint32_t k = 1; k < set_.count; ++k)
       if (key_m_[k] < key_m_[i]) i = k;
-    if (set_.count == 0 || is_set(answered_, i)) return false;
+    if (set_.count == 0 || is_set(answered_, i) || key_m_[i] >= FLT_MAX) return false;
     if (!is_set(exact_, i)) {
       exact_ |= 1u << i;
       key_m_[i] = math::larger(key_m_[i], bound_m(i, at_));
@@ -148,7 +160,7 @@ bool ObjectsTick::is_in_reach(uint32_t i, const Way& way, Way& own) const {
 
 Near ObjectsTick::nearest() const {
   Near near = nearest_;
-  if (set_.count == 0) near.lower_m = near.distance_m = FLT_MAX;
+  if (answered_ == 0) near.lower_m = near.distance_m = FLT_MAX;  // no object, or all are air
   for (uint32_t i = 0; i < set_.count; ++i)
     if (key_m_[i] < near.lower_m) near.lower_m = math::larger(key_m_[i], 0.0f);
   if (is_short_) {  // an object that may be nearer, or that the tool may be inside of
