@@ -56,7 +56,7 @@ struct Boxes {
   }
   float size_m() const { return 0.5f; }
 
-  void tick(Vec3 hand_m) {
+  void tick(Vec3 hand_m, Vec3 velocity_mps = {}) {
     for (uint32_t i = 0; i < count; ++i) scene::advance(object[i], kTick_s);
     contact.position_m = hand_m;
     contact.proxy_m = output.proxy_m;
@@ -65,6 +65,7 @@ struct Boxes {
     scene::touch_objects(contact, {object, pair, count}, *this, touch, model);
     servo::StepInput input;
     input.position_m = hand_m;
+    input.velocity_mps = velocity_mps;
     input.tick = now++;
     input.enable = true;
     output = servo::step(state, limits, model, input);

@@ -263,6 +263,22 @@ TEST(Objects_CoincidentAndNested_AreTouchedAsOne) {
   CHECK_EQ(boxes.output.faults, 0u);
 }
 
+// A damper of 50 N s/m pushed by 8 N, the force limit.
+TEST(Objects_HandThatGoesFartherIn_IsLedOutByAtMostOneNewton) {
+  Boxes boxes;
+  boxes.contact.material.damping_N_s_per_m = 50;
+  boxes.is_plane = true;
+  boxes.add(object_at({0, 0, -0.01f}));
+  float most_N = 0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const float in_m = tick < 1500 ? 0.0f : 0.0005f * static_cast<float>(tick - 1500);
+    boxes.tick({0, 0, -0.0001f - in_m}, {0, 0, tick < 1500 ? 0.0f : -0.5f});
+    most_N = math::larger(most_N, boxes.output.force_N.z);
+  }
+  CHECK(is_near(most_N, 1.0f, 0.001f));
+  CHECK_EQ(boxes.output.faults, 0u);
+}
+
 TEST(Objects_NoObject_IsAir) {
   Boxes boxes;
   for (int tick = 0; tick < 5; ++tick) boxes.tick({0, 0, 0.001f * static_cast<float>(tick)});

@@ -36,11 +36,11 @@ void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel&
     return;
   }
   const float rise = touch.inside_s < kLeadOutRise_s ? touch.inside_s / kLeadOutRise_s : 1.0f;
-  Material material = touch.material;
+  // No damper: against a hand that goes farther in it adds its speed's push.
+  Material material{touch.material.stiffness_N_per_m, 0.0f};
   if (material.stiffness_N_per_m * near.distance_m > kLeadOut_N)
     material.stiffness_N_per_m = kLeadOut_N / near.distance_m;
   material.stiffness_N_per_m *= rise;
-  material.damping_N_s_per_m *= rise;
   touch.penetration_m = add_contact(model, contact.position_m, 0.0f,
                                     {-near.distance_m, near.outward, near.sign}, material);
 }

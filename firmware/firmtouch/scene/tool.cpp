@@ -134,7 +134,6 @@ void ToolTick::end(const ProxyMoved& moved) {
     servo::ContactPlane plane = of_sphere.plane[i];
     plane.offset_m -= math::dot(plane.normal, arm_m);
     plane.stiffness_N_per_m *= share;
-    plane.damping_N_s_per_m *= share;
     (void)add_plane(made_, plane);
   }
 }
