@@ -98,8 +98,31 @@ uint32_t row_of(const std::vector<ParameterRow>& rows, const std::string& name) 
   return UINT32_MAX;
 }
 
-double value_of(const ParameterRow& row, LineReader& words) {
-  return words.quantity(row.short_name, row.unit, row.low, row.high);
+// A row of the parameter table, by its name or a former one; UINT32_MAX: there is none.
+struct NamedRow {
+  uint32_t row = UINT32_MAX;
+  const FormerParameter* former = nullptr;
+};
+
+NamedRow named_row(const std::vector<ParameterRow>& rows, const std::string& name) {
+  for (const FormerParameter& former : kFormer) {
+    if (name != former.name) continue;
+    std::fprintf(stderr, "`%s` is now `%s`, in work units; a visit counts %g\n", former.name,
+                 former.now, former.factor);
+    return {row_of(rows, former.now), &former};
+  }
+  return {row_of(rows, name), nullptr};
+}
+
+double value_of(const std::vector<ParameterRow>& rows, const NamedRow& named, LineReader& words) {
+  const ParameterRow& row = rows[named.row];
+  const double value = words.quantity(row.short_name, row.unit, row.low, row.high);
+  if (named.former == nullptr) return value;
+  const double units = value * named.former->factor;
+  if (!(units > row.high)) return units;
+  std::fprintf(stderr, "`%s %g` is %g units: the largest `%s` is taken, %g\n", named.former->name,
+               value, units, named.former->now, row.high);
+  return row.high;
 }
 
 void Reader::once(const std::string& name, LineReader& words) {
@@ -123,20 +146,12 @@ bool Reader::own_key(const std::string& name, LineReader& words) {
   return true;
 }
 
-bool Reader::parameter(const std::string& given_name, LineReader& words) {
-  std::string name = given_name;
-  double factor = 1;
-  for (const FormerParameter& former : kFormer) {
-    if (name != former.name) continue;
-    std::fprintf(stderr, "`%s` is now `%s`, in work units; a visit counts %g\n", former.name,
-                 former.now, former.factor);
-    name = former.now;
-    factor = former.factor;
-  }
-  const uint32_t row = row_of(parameters, name);
+bool Reader::parameter(const std::string& name, LineReader& words) {
+  const NamedRow named = named_row(parameters, name);
+  const uint32_t row = named.row;
   if (row == UINT32_MAX) return false;
   once(parameters[row].name, words);
-  const double value = factor * value_of(parameters[row], words);
+  const double value = value_of(parameters, named, words);
   for (Setting& setting : out.settings)
     if (setting.parameter == row) return setting.value = value, true;
   out.settings.push_back({row, value});
@@ -196,9 +211,10 @@ void Reader::event(LineReader& words) {
   }
   if (event.kind == Event::Kind::kSet) {
     const std::string name = words.next("a parameter's name");
-    event.parameter = row_of(parameters, name);
-    if (event.parameter == UINT32_MAX) words.refuse_unknown("parameter", name);
-    event.value = value_of(parameters[event.parameter], words);
+    const NamedRow named = named_row(parameters, name);
+    event.parameter = named.row;
+    if (named.row == UINT32_MAX) words.refuse_unknown("parameter", name);
+    event.value = value_of(parameters, named, words);
   }
   out.events.push_back(event);
 }

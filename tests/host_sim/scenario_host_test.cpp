@@ -67,6 +67,21 @@ TEST(Scenario_EveryStatement_ConvertsToSi) {
   CHECK(s.events[0].kind == Event::Kind::kEmergencyStop && s.events[1].kind == Event::Kind::kSet);
 }
 
+// Budgets that counted visits, of two and a half units, wherever a parameter is set.
+TEST(Scenario_FormerNames_AreConvertedInLinesSetsAndEvents) {
+  const Scenario s =
+      read(kHead + "mesh_steps 16\nat 3 s set curve_steps 20\nat 4 s set mesh_steps 40000\n",
+           {"curve_steps 40000"});
+  CHECK_EQ(s.settings.size(), 2u);
+  CHECK(near(s.settings[0].value, 40) && near(s.settings[1].value, 65536));
+  CHECK_EQ(s.events.size(), 2u);
+  CHECK(near(s.events[0].value, 50) && near(s.events[1].value, 65536));
+  const auto rows = host_sim::parameter_rows();
+  CHECK(rows[s.settings[0].parameter].short_name == "mesh_work");
+  CHECK(rows[s.events[0].parameter].short_name == "guide_work");
+  CHECK(says(refusal(kHead + "at 3 s set mesh_steps 65537\n"), "65536"));
+}
+
 TEST(Scenario_EveryMistake_ReportsItsLine) {
   struct Case {
     const char* line;
