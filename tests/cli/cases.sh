@@ -36,7 +36,7 @@ WhatDoesNotExistIsAUsageError() {
   f make ball -o a.obj; exits 2; says "'ball' cannot be made"
   f query a.fta a touch; exits 2; says "'touch' is no kind of query"
   f bake x.obj -o a.fta --unit furlong; exits 2; says 'furlong' 'm, mm, cm, in'
-  f query a.fta a distance --budget 0; exits 2; says '--budget 0'
+  f query a.fta a distance --budget -1; exits 2; says '--budget -1'
   f query a.fta a distance --budget; exits 2; says '--budget needs a value'
   f query a.fta a distance --cold --cold; exits 2; says '--cold is given twice'
   f query a.fta a; exits 2; says 'missing'
@@ -293,12 +293,12 @@ ABudgetIsKeptAndTold() {
   bake part.obj -o a.fta
   f make walk part.obj --points 200 --seed 2 -o walk.csv; exits 0
   same "$(wc -l <walk.csv | tr -d ' ')" 201
-  f query a.fta part distance --cold --work 5 <walk.csv
-  exits 0
+  f query a.fta part distance --cold --work 5 <walk.csv; exits 0; five=$out
   printf '%s\n' "$out" | awk -F, 'NR > 1 && !($12 <= 3 * 5 && $11 >= 0) { exit 1 }' || fail 'more than three steps a unit'
-  f query a.fta part distance --cold --budget 2 <walk.csv; exits 0; says '--budget N is now --work N'
-  f query a.fta part distance <walk.csv
-  warm=$(printf '%s\n' "$out" | cut -d, -f1)
+  f query a.fta part distance --cold --budget 2 <walk.csv; same "$out" "$five"; says '--budget N is now --work N'
+  f query a.fta part distance --cold --work 0 <walk.csv; exits 0; starved=$out
+  f query a.fta part distance --cold --budget 0 <walk.csv; same "$out" "$starved"; exits 0
+  f query a.fta part distance <walk.csv; warm=$(printf '%s\n' "$out" | cut -d, -f1)
   printf '%s\n' "$out" | awk -F, 'NR > 1 && $13 != 1 { exit 1 }' || fail 'not exact'
   f query a.fta part distance --cold <walk.csv
   same "$(printf '%s\n' "$out" | cut -d, -f1 | head -n 2)" "$(printf '%s\n' "$warm" | head -n 2)"

@@ -64,7 +64,7 @@ query::Budget budget_of(const Arguments& arguments) {
         stderr,
         "firmtouch: query: --budget N is now --work N, in work units; a visit counts 2.5\n");
   is_said = true;
-  const uint64_t work = uint64_t{arguments.count("--budget", UINT32_MAX, 1, UINT32_MAX)} * 5 / 2;
+  const uint64_t work = uint64_t{arguments.count("--budget", UINT32_MAX, 0, UINT32_MAX)} * 5 / 2;
   budget.work = static_cast<uint32_t>(std::min<uint64_t>(work, UINT32_MAX));
   return budget;
 }
