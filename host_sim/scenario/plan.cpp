@@ -5,6 +5,7 @@
 
 #include "device/line_reader.hpp"
 #include "firmtouch/params/table.hpp"
+#include "firmtouch/scene/tool.hpp"
 #include "host_sim/device/linkage_body.hpp"
 
 namespace firmtouch::host_sim {
@@ -116,6 +117,17 @@ void add_walls(TextLines& out, const PlannedDevice& device) {
   out.add("force_limit %.3g N", force_limit_N(device));
 }
 
+// Each sphere after the first needs as much more.
+void add_work(TextLines& out, size_t spheres) {
+  if (spheres < 2) return;
+  const auto more = static_cast<double>((spheres - 1) * scene::kSphereWork);
+  const auto with_more = [more](uint32_t number) {
+    return static_cast<double>(params::kTable[number].initial) + more;
+  };
+  out.add("# for %zu spheres\nmesh_work %.0f\ntick_work %.0f", spheres,
+          with_more(params::kMeshWork), with_more(params::kTickWork));
+}
+
 void add_axes(TextLines& out, const Box& box, double diagonal) {
   const Vec middle = (box.low + box.high) * 0.5;
   const Vec half = {std::max(0.5, (box.high.x - box.low.x) + diagonal),
@@ -140,6 +152,7 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
   }
   out.add("\n# the surface and the guide\ntool_radius %.4g mm", tool_m * 1e3);
   add_walls(out, device);
+  add_work(out, environment.tool().size());
   if (environment.has_surface() && !environment.has_mesh()) {
     const Orientation orientation = orientation_of(environment.tessellation());
     out.add("surface_closed %d\nsurface_turned %d", orientation.is_closed ? 1 : 0,

@@ -96,6 +96,16 @@ APlanChoosesThePoolOfATickByWhatTheCoreDoes() {
   printf '%s\n' "$out" | grep -q '^tick_work 1000 takes at most 230000 instructions a tick' || fail "$out"
 }
 
+APlanForAToolHasWorkForEachSphere() {
+  box_obj usemtl >box.obj
+  printf 'sphere -1 0 0 mm radius 1 mm\nsphere 1 0 0 mm radius 1 mm\nsphere 2 0 0 mm radius 1 mm\n' >bar.tool
+  f plan box.obj bar.tool --flash 1M --ram 64K --rate 1k --mips 460; exits 0
+  printf '%s\n' "$out" | grep -q '^tick_work 1470: 465 units for queries; 338.1 of 460 million' || fail "$out"
+  printf '%s\n' "$out" | grep -q '^mesh_work 1110: of 3 spheres each' || fail "$out"
+  f plan box.obj bar.tool --flash 1M --ram 64K --rate 1k; exits 0
+  printf '%s\n' "$out" | grep -q '^the least pool, 1006, ' || fail "$out"
+}
+
 APlanSaysWhetherYourProgramHasTwoRates() {
   f make path -o path.csv; exits 0
   image() { printf '[{"board": "mine", "parts": "all", %s"flash": 900, "ram": 20, "record_ring": 7, "stack": {"opening": 3, "lock_step": 5, "running": 4}}]' "$1"; }

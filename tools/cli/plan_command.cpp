@@ -10,6 +10,7 @@
 #include "cli/model_input.hpp"
 #include "cli/plan_picture.hpp"
 #include "firmtouch/params/rows.hpp"
+#include "firmtouch/scene/tool.hpp"
 #include "json/json.hpp"
 
 namespace firmtouch::cli {
@@ -108,13 +109,18 @@ void print_rows(const Planner& planner) {
                                : "");
 }
 
-// What the pools of a tick can be at this rate.
-std::vector<std::string> pools(const Limits& limits, const PlanRow& row) {
-  double units = 0;
-  for (const params::Entry& entry : params::SafetyRows::kRows)
-    if (entry.number == params::kTickWork) units = static_cast<double>(entry.initial);
+template <class Rows>
+double initial_of(uint32_t number) {
+  for (const params::Entry& entry : Rows::kRows)
+    if (entry.number == number) return static_cast<double>(entry.initial);
+  return 0;
+}
+
+// What the pools of a tick can be at this rate. Those of a tool have more for each sphere.
+std::vector<std::string> tick_pools(const Limits& limits, const PlanRow& row, double of_spheres) {
+  const double units = initial_of<params::SafetyRows>(params::kTickWork) + of_spheres;
   const double a_unit = static_cast<double>(params::kInstructionsAUnit);
-  const double fixed = static_cast<double>(params::kFixedTickWork);
+  const double fixed = static_cast<double>(params::kFixedTickWork) + of_spheres;
   const auto needed = [&](double work) {
     return tools::number_text(work * a_unit * limits.rate_Hz / 1e6);
   };
@@ -139,6 +145,18 @@ std::vector<std::string> pools(const Limits& limits, const PlanRow& row) {
   if (row.work.path_worst > pool - fixed)
     lines.push_back("a touching query was seen to take " + std::to_string(row.work.path_worst) +
                     ": contact may be uncertain there, and the base hull takes over if baked");
+  return lines;
+}
+
+std::vector<std::string> pools(const Limits& limits, const PlanRow& row) {
+  const double more =
+      row.spheres < 2 ? 0 : static_cast<double>((row.spheres - 1) * scene::kSphereWork);
+  std::vector<std::string> lines = tick_pools(limits, row, more);
+  if (more > 0)
+    lines.push_back("mesh_work " +
+                    rounded(initial_of<params::ContactRows>(params::kMeshWork) + more) + ": of " +
+                    std::to_string(row.spheres) + " spheres each after the first needs " +
+                    std::to_string(scene::kSphereWork) + " units more, of tick_work, too");
   return lines;
 }
 

@@ -12,6 +12,7 @@
 #include "firmtouch/field/closest_point.hpp"
 #include "firmtouch/hull/layout.hpp"
 #include "firmtouch/params/rows.hpp"
+#include "firmtouch/scene/tool_layout.hpp"
 #include "surface/make/make_walk.hpp"
 
 namespace firmtouch::cli {
@@ -131,6 +132,9 @@ PlanRow Planner::bake(const Words& words, bool must) {
     row.refused = "no program of these has its parts: " + tools::needed_parts_text(container);
   else
     row.image = *image;
+  for (const std::string& name : tools::names_with(container, scene::kToolSection))
+    row.spheres = container.find(scene::kToolSection, name.c_str()).size() /
+                  static_cast<uint32_t>(sizeof(scene::SphereLayout));
   measure(container, row);
   return row;
 }

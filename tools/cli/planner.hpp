@@ -19,6 +19,7 @@ struct PlanRow {
   uint64_t field = 0, hull = 0;    // of these
   tools::StepFigures work;         // units a query of the meshes takes; 0: there is none
   uint64_t triangles = 0;
+  uint64_t spheres = 0;  // of the tool; 0: it has none of its own
 
   std::string text() const;
   uint64_t flash() const { return image.flash + asset; }
