@@ -31,6 +31,20 @@ BenchNeedsWhatItIsGiven() {
   f bench distance --peer; exits 2; says '--peer needs a value'
 }
 
+# By the program beside it; a copy of its own says how they are run.
+BenchOfTheSimulatorIsRunByIt() {
+  if [ -x "${firmtouch%/*}/firmtouch-sim" ]; then
+    f bench friction
+    exits 0
+    printf '%s\n' "$out" | grep -qE 'stick-slip at 1 mm/s: period, error .* met' || fail "$out"
+    f bench friction --moving; exits 2; says 'firmtouch-sim' '--moving is for feel'; same "$out" ''
+  fi
+  cp "$firmtouch" alone
+  beside=$firmtouch firmtouch=./alone
+  f bench passivity; exits 2; says "is run as \`firmtouch-sim bench passivity\`"
+  firmtouch=$beside
+}
+
 BenchRacesAPeerOrSaysThatItIsAbsent() {
   box >box.obj
   f bench distance box.obj

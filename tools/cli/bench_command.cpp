@@ -16,6 +16,11 @@ constexpr const char* kOfTheSimulator[] = {"feel", "friction", "passivity"};
 
 }  // namespace
 
+bool is_bench_of_simulator(const std::string& name) {
+  return std::find(std::begin(kOfTheSimulator), std::end(kOfTheSimulator), name) !=
+         std::end(kOfTheSimulator);
+}
+
 Command bench_command() {
   return {
       {"bench", "[NAME|all] [MODEL...] [options]", 0, SIZE_MAX, run_bench},
@@ -24,7 +29,9 @@ Command bench_command() {
 thread, in turn with the peer's in one run, medians of 5; only their ratio means
 something on another machine. A peer is another program that answers the same queries:
     COMMAND closest|segment|polyline|spline FILE in.csv     prints `us_per_query X`
-    COMMAND closest FILE in.csv --warm     the same; each query may use the last answer)",
+    COMMAND closest FILE in.csv --warm     the same; each query may use the last answer
+feel, friction and passivity need the simulated device: firmtouch-sim, beside this
+program, runs them, with its own options (firmtouch-sim bench --help).)",
       options_of_benches(
           {{"--isa", "LEVEL", "mesh queries with this instruction set (default: the fastest here)"},
            {"--ticks", "N", "touch: ticks a model (default: 200,000; --long: 20,000,000)"},
@@ -34,8 +41,7 @@ something on another machine. A peer is another program that answers the same qu
 
 int run_bench(const Arguments& arguments) {
   for (const std::string& name : arguments.positionals()) {
-    if (std::find(std::begin(kOfTheSimulator), std::end(kOfTheSimulator), name) !=
-        std::end(kOfTheSimulator))
+    if (is_bench_of_simulator(name))
       fail_usage("bench: '" + name + "' is run as `firmtouch-sim bench " + name + "`");
     if (name == "device") fail_usage("bench: devices are measured by `firmtouch-sim device NAME`");
     if (std::find(std::begin(kOfTheLab), std::end(kOfTheLab), name) == std::end(kOfTheLab)) break;
