@@ -110,11 +110,13 @@ std::string row(const std::string& name, const std::string& value) {
   return "<tr><th scope=\"row\">" + name + "</th><td>" + value + "</td></tr>";
 }
 
-// "emergency stop at 11.430 s (part of the scenario)"
+// "contact uncertain at 0.658 s, emergency stop at 11.430 s (part of the scenario)"
 std::string faults_text(const Summary& s) {
-  if (s.fault_s < 0) return "none";
-  return html_of(s.fault_names) + " at " + fixed(s.fault_s, 3) + " s" +
-         (s.fault_is_scripted ? " (part of the scenario)" : "");
+  std::string text;
+  for (const LatchedFault& fault : s.latched)
+    text += (text.empty() ? "" : ", ") + html_of(fault.name) + " at " + fixed(fault.time_s, 3) +
+            " s" + (fault.is_scripted ? " (part of the scenario)" : "");
+  return text.empty() ? "none" : text;
 }
 
 std::string table(const Report& report, const Scene3d& scene3d) {

@@ -182,8 +182,8 @@ void RunCharts::finish(const Summary& summary) {
   for (RunChart& chart : charts_) {
     if (chart.decimals == 3) chart.note = note_of_distance(summary);
   }
-  if (!axis_.events.empty() && summary.fault_is_scripted)
-    axis_.events.front().second += " (part of the scenario)";
+  for (size_t i = 0; i < axis_.events.size() && i < summary.latched.size(); ++i)
+    if (summary.latched[i].is_scripted) axis_.events[i].second += " (part of the scenario)";
 }
 
 chart::Chart chart_of(const RunChart& from) {

@@ -164,6 +164,17 @@ double Summariser::true_distance_m(Vec at_m) {
   return least_m;
 }
 
+void Summariser::add_faults(uint32_t risen, double time_s) {
+  if (risen == 0) return;
+  const bool is_scripted =
+      std::any_of(facts_.events.begin(), facts_.events.end(), [&](const Event& event) {
+        return is_scripted_fault(event) && std::fabs(event.time_s - time_s) < 1.5 / facts_.rate_Hz;
+      });
+  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
+    if ((risen >> bit & 1u) != 0)
+      summary_.latched.push_back({servo::fault_name(bit), time_s, is_scripted});
+}
+
 void Summariser::add(const RunTick& tick) {
   const record::TickRecord& record = tick.record;
   moving_.take(record);
@@ -173,14 +184,7 @@ void Summariser::add(const RunTick& tick) {
         std::max(summary_.peak_torque_Nm, norm(wide(record.output.torque_Nm)));
   const record::TickOutput& out = record.output;
   const double time_s = static_cast<double>(summary_.ticks) / facts_.rate_Hz;
-  if (out.faults != 0 && summary_.fault_s < 0) {
-    summary_.fault_s = time_s;
-    summary_.fault_is_scripted =
-        std::any_of(facts_.events.begin(), facts_.events.end(), [&](const Event& event) {
-          return is_scripted_fault(event) &&
-                 std::fabs(event.time_s - time_s) < 1.5 / facts_.rate_Hz;
-        });
-  }
+  add_faults(out.faults & ~summary_.faults, time_s);
   count(summary_, out, visits_, deviation_m_);
   const bool is_homed = (out.state & record::kStateNotHomed) == 0;
   const uint32_t homing = is_homed ? 0 : out.state & kHomingBits;
@@ -243,10 +247,6 @@ Summary Summariser::finish() {
     summary.mean_guide_deviation_m = deviation_m_ / static_cast<double>(summary.guide_ticks);
   summary.mean_instructions = static_cast<double>(instructions_) / ticks;
   summary.stack_high_bytes = facts_.stack_high_bytes;
-  for (uint32_t bit = 0; bit < servo::kFaultCount; ++bit)
-    if ((summary.faults >> bit & 1u) != 0)
-      summary.fault_names +=
-          (summary.fault_names.empty() ? "" : ", ") + std::string(servo::fault_name(bit));
   summary.chatter_N = quality_.chatter_N();
   summary.chatter_s = quality_.chatter_s();
   summary.worst_turn_rad = quality_.turn_rad();

@@ -13,6 +13,13 @@
 
 namespace firmtouch::host_sim {
 
+/// When a fault was latched first.
+struct LatchedFault {
+  const char* name;
+  double time_s;
+  bool is_scripted;  // the scenario causes it
+};
+
 /// Key figures of a run.
 struct Summary {
   size_t ticks = 0, exact_ticks = 0;
@@ -38,9 +45,7 @@ struct Summary {
   // Share of the period that a tick took, where its time was measured.
   double mean_load = 0, worst_load = 0;
   uint32_t faults = 0;
-  double fault_s = -1;             // time of the first latched fault; -1: none
-  bool fault_is_scripted = false;  // the scenario causes it
-  std::string fault_names;
+  std::vector<LatchedFault> latched;  // in order of time
   uint32_t homing = 0;  // of the last tick's state: record::kStateNotHomed and above; 0: homed
   double homed_s = -1;  // when it was homed; -1: it was not, or need not be
   // Ticks that enabled beside a wall that is stiffer than stable, and what would have been stable.
@@ -91,6 +96,7 @@ class Summariser {
     Vec position_m;
   };
   void add_oracles();
+  void add_faults(uint32_t risen, double time_s);
   void check_certificate(const record::TickOutput& out);
   void add_walls(Summary& summary) const;
 

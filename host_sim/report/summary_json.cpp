@@ -13,6 +13,19 @@ size_t peak_memory_bytes() {
   return static_cast<size_t>(usage.ru_maxrss) * 1024;
 }
 
+std::string names_of(const std::vector<LatchedFault>& faults) {
+  std::string names;
+  for (const LatchedFault& fault : faults)
+    names += (names.empty() ? "" : ", ") + std::string(fault.name);
+  return names;
+}
+
+std::string fault_json(const LatchedFault& fault) {
+  tools::Json json;
+  json.add("name", json_text(fault.name)).add("first_s", fault.time_s);
+  return json.add("is_scripted", fault.is_scripted).object();
+}
+
 }  // namespace
 
 std::string json_of(const Summary& s, const RunFacts& facts) {
@@ -56,8 +69,10 @@ std::string json_of(const Summary& s, const RunFacts& facts) {
         .add("passive_at_worst_pose_N_per_m", s.worst_walls.passive_N_per_m)
         .add("stable_at_largest_force_N_per_m", s.peak_walls.stable_N_per_m)
         .add("passive_at_largest_force_N_per_m", s.peak_walls.passive_N_per_m);
-  all.add("faults", uint64_t{s.faults}).add("faults_names", json_text(s.fault_names));
-  if (s.fault_s >= 0) all.add("fault_s", s.fault_s).add("fault_is_scripted", s.fault_is_scripted);
+  all.add("faults", uint64_t{s.faults}).add("faults_names", json_text(names_of(s.latched)));
+  if (!s.latched.empty())
+    all.add("fault_s", s.latched[0].time_s).add("fault_is_scripted", s.latched[0].is_scripted);
+  all.add("faults_latched", tools::json_list(s.latched, fault_json));
   return all.add("peak_memory_bytes", uint64_t{peak_memory_bytes()}).object() + "\n";
 }
 

@@ -133,9 +133,9 @@ std::string text_of(const Summary& s, const RunFacts& trace) {
     text += trace.difference ? "  same bits      NO: see below\n"
                              : "  same bits      yes: every output bit of every tick is equal to "
                                "the in-process controller's\n";
-  if (s.fault_s >= 0)
-    line("  fault          %s, latched at %.3f s%s\n", s.fault_names.c_str(), s.fault_s,
-         s.fault_is_scripted ? " (part of the scenario)" : "");
+  for (const LatchedFault& fault : s.latched)
+    line("  fault          %s, latched at %.3f s%s\n", fault.name, fault.time_s,
+         fault.is_scripted ? " (part of the scenario)" : "");
   return text;
 }
 

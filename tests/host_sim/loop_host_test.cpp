@@ -1,5 +1,6 @@
 // The closed loop in this process, its log and its replay.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -276,10 +277,29 @@ TEST(Scenario_Overload_IsAFaultAndTheReportSaysHowMuch) {
   const Session session(part_asset());
   const host_sim::Summary summary =
       summarise(scenario, host_sim::environment_of(*session.controller, {}), trace);
-  CHECK(summary.fault_names == "overload");
+  CHECK_EQ(summary.latched.size(), 1u);
+  CHECK(std::string(summary.latched[0].name) == "overload" && !summary.latched[0].is_scripted);
   CHECK(load_text(summary) == "mean 24 %, worst 120 % of the period");
   CHECK(load_text(summarise(scenario, the_run().environment, the_run().trace)) ==
         "not measured (lock-step)");
+}
+
+// All were dated by the first.
+TEST(Summary_SeveralFaults_EachHasItsOwnTime) {
+  const Trace trace = run_with("at 0.2 s drive_fault\nat 0.5 s emergency_stop\n");
+  const Session session(part_asset());
+  const host_sim::Environment environment = host_sim::environment_of(*session.controller, {});
+  const host_sim::Summary summary = summarise(loop_scenario(), environment, trace);
+  CHECK_EQ(summary.faults, servo::kFaultDrive | servo::kFaultEmergencyStop);
+  CHECK_EQ(summary.latched.size(), 2u);
+  CHECK(std::string(summary.latched[0].name) == "drive");
+  CHECK(std::string(summary.latched[1].name) == "emergency stop");
+  CHECK(std::fabs(summary.latched[0].time_s - 0.2) < 0.002);
+  CHECK(std::fabs(summary.latched[1].time_s - 0.5) < 0.002);
+  CHECK(summary.latched[0].is_scripted && summary.latched[1].is_scripted);
+  const std::string text = text_of(summary, trace);
+  CHECK(text.find("\n  fault          drive, latched at 0.20") != std::string::npos);
+  CHECK(text.find("\n  fault          emergency stop, latched at 0.50") != std::string::npos);
 }
 
 TEST(Session_DamagedAsset_ReportsRule) {
