@@ -58,11 +58,11 @@ BenchRacesAPeerOrSaysThatItIsAbsent() {
   # A peer that says it takes an hour a query loses, one that takes next to nothing wins.
   f bench distance box.obj --peer 'echo us_per_query 3600000000;:'
   exits 0
-  printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  met' || fail "$out"
+  printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.4000  met' || fail "$out"
   f bench distance box.obj --bar --peer 'echo us_per_query 0.000001;:'
   exits 1
   says 'not met'
-  printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.2500  NOT MET' || fail "$out"
+  printf '%s\n' "$out" | grep -qE 'against the peer .*goal <= 0.4000  NOT MET' || fail "$out"
   # The peer of a warm race is warm; its cold figure stands beside it.
   f bench distance box.obj --peer 'w() { case $4 in --warm) echo us_per_query 3600 ;; *) echo us_per_query 7200 ;; esac; }; w'
   exits 0
@@ -72,7 +72,7 @@ BenchRacesAPeerOrSaysThatItIsAbsent() {
   f bench distance box.obj --json --peer 'echo us_per_query 0.000001;:'
   exits 0
   well_formed
-  printf '%s\n' "$out" | grep -qF '"goal": 0.25, "goal_is": "at most", "ok": false' || fail "$out"
+  printf '%s\n' "$out" | grep -qF '"goal": 0.4, "goal_is": "at most", "ok": false' || fail "$out"
 }
 
 BenchNamesAPeerThatFails() {

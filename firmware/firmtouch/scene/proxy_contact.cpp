@@ -27,7 +27,9 @@ void use_material(const ProxyContact& contact, ProxyTouch& touch) {
     stiffness = math::larger(softer, contact.material.stiffness_N_per_m);
 }
 
-void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel& model) {
+// `was_m`: how deep it was.
+void lead_out(const ProxyContact& contact, float was_m, ProxyTouch& touch,
+              servo::LocalModel& model) {
   const Nearness& near = touch.proxy.near;
   touch.inside_s = touch.inside_s + contact.passed_s;
   if (!(touch.inside_s < kNoWayOut_s)) {
@@ -36,11 +38,12 @@ void lead_out(const ProxyContact& contact, ProxyTouch& touch, servo::LocalModel&
     return;
   }
   const float rise = touch.inside_s < kLeadOutRise_s ? touch.inside_s / kLeadOutRise_s : 1.0f;
-  // No damper: against a hand that goes farther in it adds its speed's push.
-  Material material{touch.material.stiffness_N_per_m, 0.0f};
-  if (material.stiffness_N_per_m * near.distance_m > kLeadOut_N)
-    material.stiffness_N_per_m = kLeadOut_N / near.distance_m;
-  material.stiffness_N_per_m *= rise;
+  const float depth_m = near.distance_m, out_m = math::larger(was_m - depth_m, 0.0f);
+  float push_N = math::smaller(touch.material.stiffness_N_per_m * depth_m, kLeadOut_N);
+  // Its way out is damped; against a hand that goes farther in a damper would push harder.
+  push_N = push_N - touch.material.damping_N_s_per_m * out_m / contact.passed_s;
+  Material material;
+  if (push_N > 0.0f) material.stiffness_N_per_m = push_N * rise / depth_m;
   touch.penetration_m = add_contact(model, contact.position_m, 0.0f,
                                     {-near.distance_m, near.outward, near.sign}, material);
 }
@@ -86,8 +89,9 @@ void end_proxy_contact(const ProxyContact& contact, const ProxyMoved& moved, Pro
                        servo::LocalModel& model) {
   const Proxy& proxy = touch.proxy;
   touch.moved = moved;
+  const float was_m = touch.penetration_m;
   touch.penetration_m = 0;
-  if (proxy.phase == Proxy::Phase::kInside) return lead_out(contact, touch, model);
+  if (proxy.phase == Proxy::Phase::kInside) return lead_out(contact, was_m, touch, model);
   model.is_uncertain = moved.is_starved && is_stiff(touch);
   if (proxy.phase != Proxy::Phase::kFree) return;
   servo::ProxySpring& spring = model.spring;

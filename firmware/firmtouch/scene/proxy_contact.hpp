@@ -39,7 +39,7 @@ void end_proxy_contact(const ProxyContact& contact, const ProxyMoved& moved, Pro
 
 /// Contact of a sphere with a shape (scene/touched.hpp) through a proxy. Radius and material take
 /// effect without load: they make no step of the force and give the hand no energy. A tool that
-/// begins inside is led out by the nearest way, undamped, by at most 1 N. The model is uncertain
+/// begins inside is led out by the nearest way, damped, by at most 1 N. The model is uncertain
 /// where the visits ran out before the proxy could be certified at its place.
 /// Bounds: scene/proxy.hpp; re-entrant for different touches.
 template <class Shape>
