@@ -54,17 +54,22 @@ std::string json_of(const Comparison& result, bool is_same) {
 
 int print_comparison(const cli::Arguments& options) {
   Log logs[2];
+  bool is_whole = true;
   for (size_t i = 0; i < 2; ++i) {
     logs[i] = read_log(options.positionals()[i]);
     if (logs[i].decimation != 1 || logs[i].first_number != 0)
       throw tools::Refused(options.positionals()[i] +
                            ": it does not hold every tick from the first; record the run again");
+    if (logs[i].is_complete) continue;
+    is_whole = false;
+    std::fprintf(stderr, "%s: %s; the %zu ticks before are compared\n",
+                 options.positionals()[i].c_str(), logs[i].damage.c_str(), logs[i].records.size());
   }
   const Comparison result = compare(logs[0], logs[1]);
   const bool is_same = result.fields.empty() && result.first.ticks == result.second.ticks;
   if (options.has("--json")) {
-    std::fputs(json_of(result, is_same).c_str(), stdout);
-    return is_same ? 0 : 1;
+    std::fputs(json_of(result, is_same && is_whole).c_str(), stdout);
+    return is_same && is_whole ? 0 : 1;
   }
   print_figures(result.first, result.second);
   for (const std::string& line : result.settings) std::printf("setting  %s\n", line.c_str());
@@ -73,8 +78,10 @@ int print_comparison(const cli::Arguments& options) {
   for (const FieldComparison& row : result.fields)
     std::printf("%-26s %12.5g %12u %12.5g %12u\n", row.name.c_str(), row.worst, row.worst_tick,
                 row.rms, row.first_tick);
-  std::printf("%s\n", is_same ? "the same in every bit of every tick" : "they differ");
-  return is_same ? 0 : 1;
+  std::printf("%s\n", !is_same   ? "they differ"
+                      : is_whole ? "the same in every bit of every tick"
+                                 : "the same in every bit of the ticks before the damage");
+  return is_same && is_whole ? 0 : 1;
 }
 
 }  // namespace
@@ -83,7 +90,7 @@ cli::Command compare_command() {
   return {{"compare", "A.ftl B.ftl", 2, 2, print_comparison},
           "compares two runs: the figures of both, settings and fields that differ, and where",
           R"(Ticks are matched by their number, up to the end of the shorter run. Exit code 0: all
-bits of all ticks are the same; 1: they differ.)",
+bits of all ticks are the same; 1: they differ, or a log is damaged.)",
           {{"--json", nullptr, "the comparison as JSON"}}};
 }
 

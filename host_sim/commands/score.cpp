@@ -16,8 +16,9 @@ namespace firmtouch::host_sim {
 namespace {
 
 struct ScoredRun {
-  std::vector<ScoredTick> ticks;
+  std::vector<ScoredTick> ticks;  // before the first gap
   ScoreSettings settings;
+  std::string damage;  // in words; empty: the run is whole
 };
 
 double logged(const Log& log, params::Index row) {
@@ -37,6 +38,7 @@ ScoredRun from_log(const std::string& path, const cli::Arguments& options) {
   if (log.decimation != 1)
     throw Refused(path + ": it has not every tick; record with --decimate 1 to score it");
   ScoredRun run;
+  if (!log.is_complete) run.damage = log.damage;
   run.settings = {1 / logged(log, params::kTickPeriod), logged(log, params::kForceLimit),
                   logged(log, params::kToolRadius), logged(log, params::kContactStiffness),
                   logged(log, params::kContactDamping)};
@@ -76,6 +78,7 @@ class CsvRun {
     for (std::string cell; std::getline(cells_, cell, ',');)
       row_.push_back(std::strtod(cell.c_str(), nullptr));
   }
+  size_t line() const { return line_; }
   double value(const std::string& name) const {
     const auto found = columns_.find(name);
     if (found == columns_.end()) throw Refused(path_ + ": it has no column " + name);
@@ -110,10 +113,18 @@ ScoredRun from_csv(const std::string& path, const cli::Arguments& options) {
     environment = environment_of(*session->controller, {});
   }
   ContactTurn turn(&environment);
-  double end_s = 0;
+  double begin_s = 0, end_s = 0;
   while (csv.next()) {
     csv.read();
-    end_s = csv.value("time_s");
+    const double time_s = csv.value("time_s"), count = static_cast<double>(run.ticks.size());
+    if (run.ticks.empty()) begin_s = time_s;
+    // A tick that is missing makes a step of at least two.
+    const double step_s = count > 1 ? (end_s - begin_s) / (count - 1) : 0;
+    if (count > 1 && std::fabs(time_s - end_s - step_s) > step_s / 2) {
+      run.damage = "rows are missing before line " + std::to_string(csv.line());
+      break;
+    }
+    end_s = time_s;
     record::TickOutput out{};
     out.state = static_cast<uint32_t>(csv.value("state"));
     csv.read("force_N", out.force_N);
@@ -122,7 +133,8 @@ ScoredRun from_csv(const std::string& path, const cli::Arguments& options) {
     out.penetration_m = static_cast<float>(csv.value("penetration_m"));
     run.ticks.push_back(scored(out, csv.vector("device_m"), run.settings, environment, turn));
   }
-  if (end_s > 0) run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / end_s;
+  if (end_s > begin_s)
+    run.settings.rate_Hz = static_cast<double>(run.ticks.size() - 1) / (end_s - begin_s);
   return run;
 }
 
@@ -131,7 +143,11 @@ int score_run(const cli::Arguments& options) {
   check_outputs({{"the run", path}}, {{"--page", page}});
   const bool is_csv = path.size() > 4 && path.compare(path.size() - 4, 4, ".csv") == 0;
   const ScoredRun run = is_csv ? from_csv(path, options) : from_log(path, options);
-  if (run.ticks.empty()) throw Refused(path + ": it has no tick");
+  if (run.ticks.empty())
+    throw Refused(path + ": it has no tick" + (run.damage.empty() ? "" : ": " + run.damage));
+  if (!run.damage.empty())
+    std::cerr << path << ": " << run.damage << "; the " << run.ticks.size()
+              << " ticks before are scored\n";
   const ScoreSettings& settings = run.settings;
   const std::vector<ScoreRow> rows = rows_of(score_of(run.ticks, settings), settings);
   if (!page.empty()) write_file(page, score_page(path, rows, run.ticks, settings));
@@ -142,7 +158,7 @@ int score_run(const cli::Arguments& options) {
     ++not_met;
     std::cerr << "not met: " << row.figure << "\n";
   }
-  return not_met == 0 ? 0 : 1;
+  return not_met == 0 && run.damage.empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -150,7 +166,8 @@ int score_run(const cli::Arguments& options) {
 cli::Command score_command() {
   return {
       {"score", "RUN.ftl|RUN.csv [options]", 1, 1, score_run},
-      "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met",
+      "figures of the contact in a run, each with its bar, as CSV; exit code 1 if one is not met, "
+      "or the run is damaged",
       R"(Energy given, while no guide holds the tool: the largest gain of the work that the force
 does at the tool, plus what the contact's spring holds. Contact on a guide is the proxy's
 spring alone. From a log it is that of the encoders' positions, from a CSV of the device's.
