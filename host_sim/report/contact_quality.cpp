@@ -54,9 +54,9 @@ double ContactTurn::add_rad(const record::TickOutput& out, Vec contact_N) {
 }
 
 Vec contact_force_N(const record::TickOutput& out, double stiffness_N_per_m) {
-  if ((out.state & record::kStateProxy) == 0) return wide(out.force_N);
   if ((out.state & record::kStateContact) == 0) return {};
-  if ((out.state & record::kStateOnGuide) == 0) return wide(out.force_N);
+  constexpr uint32_t kApart = record::kStateProxy | record::kStateOnGuide;
+  if ((out.state & kApart) != kApart) return wide(out.force_N);
   return (wide(out.proxy_m) - wide(out.position_m)) * stiffness_N_per_m;
 }
 

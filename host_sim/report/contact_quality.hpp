@@ -7,10 +7,11 @@ namespace firmtouch::host_sim {
 /// The material that the tool touches, from 1; 0: none.
 uint32_t touched_material(const record::TickOutput& out, const Environment* environment);
 
-/// The part of a tick's force that is contact. On a guide only a proxy separates the two: by its
-/// spring, without the damper and without the limits of force and torque. A spring and a guide that
-/// pull against each other leave a force of any direction, which says nothing of either. Of a guide
-/// that has let go the force falls by the slew limit: that is no contact.
+/// The part of a tick's force that is contact. Without contact there is none: the force is that of
+/// a guide, or falls by the slew limit after one that has let go. In contact on a guide only a
+/// proxy separates the two: by its spring, without the damper and without the limits of force and
+/// torque. A spring and a guide that pull against each other leave a force of any direction, which
+/// says nothing of either.
 Vec contact_force_N(const record::TickOutput& out, double stiffness_N_per_m);
 
 /// Turns of contact from tick to tick that no texture states. Along a unit normal n a texture of

@@ -205,6 +205,23 @@ TEST(Turn_BehindABorder_IsThatOfTheTextureBefore) {
   CHECK_GE(turn.add_rad(touching(2, -0.25 * kLength_m), {-kSlope, 0, 1}), 1.0);
 }
 
+// Without a surface no tick has a proxy: a guide of two branches that pulls back and forth is no
+// contact, on the guide and while its force falls.
+TEST(Turn_OfAGuideWithoutASurface_IsAStepOfTheGuide) {
+  for (const uint32_t on_guide : {uint32_t{record::kStateOnGuide}, 0u}) {
+    Meter meter;
+    for (const float x_N : {2.0f, -1.0f, 0.0f}) {
+      record::TickOutput out{};
+      out.state = on_guide;
+      out.force_N[0] = x_N;
+      meter.take(out);
+      CHECK(!(host_sim::norm(host_sim::contact_force_N(out, 1000)) > 0));
+    }
+    CHECK(!(meter.turn_rad() > 0));
+    CHECK_LT(std::fabs(meter.guide_step_N() - 3), 1e-12);
+  }
+}
+
 TEST(Turn_WithoutProxyOrGuide_IsOfTheWholeForce) {
   for (const uint32_t bit : {uint32_t{record::kStateProxy}, uint32_t{record::kStateOnGuide}}) {
     record::TickOutput out = guided(0.5f, 0.25f);
