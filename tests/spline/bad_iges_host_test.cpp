@@ -176,6 +176,28 @@ TEST(PointersThatLeadNowhereAreRefused) {
   CHECK(refused_text(owner.text(), {"part.igs:5:", "belongs to D `5`", "D 1"}));
 }
 
+TEST(ParentsOfNothing_AndThoseThatMoveAnothersCurve_AreRefused) {
+  for (const char* list : {"144,99,0,0,0;", "144,3,0,0,0;", "144,5,0,0,0;"})
+    CHECK(refused(read_entities({{128, sheet()}, {144, list}, {126, arch()}}),
+                  {"entity 144 in line 5 is made of D", "no surface (128)", "export"}));
+  CHECK(refused(read_entities({{126, arch()}, {102, "102,2,1,99;"}}),
+                {"entity 102 in line 5 is made of D 99", "no single curve", "export"}));
+  CHECK(refused(read_entities({{126, arch()}, {102, "102,2,1;"}}), {"entity 102", "pointer 1"}));
+  CHECK(refused(read_entities({{126, arch()}, {102, "102,one;"}}), {"entity 102", "the count"}));
+  const char* const shift = "124,1.,0.,0.,1.,0.,1.,0.,2.,0.,0.,1.,3.;";
+  CHECK(refused(read_entities({{126, arch()}, {102, "102,1,1;", 5}, {124, shift}}),
+                {"entity 102 in line 5 moves entity 126 in line 3", "without a transformation"}));
+  CHECK(
+      refused(read_entities(
+                  {{126, arch(), 0, 10000}, {102, "102,1,1;", 5}, {124, shift}, {102, "102,1,1;"}}),
+              {"entity 102 in line 5 moves entity 126", "in another entity"}));
+  CHECK(refused(read_entities({{126, arch(), 0, 10000},
+                               {102, "102,1,1;", 0, 10000},
+                               {102, "102,1,3;", 7},
+                               {124, shift}}),
+                {"entity 102 in line 7 is made of D 3", "no single curve"}));
+}
+
 TEST(BadGlobalSectionsAreRefused) {
   CHECK(refused_global("1H1,1H;,,;", {"part.igs:2:", "delimiters"}));
   CHECK(refused_global("1H,,1H,,,;", {"delimiters"}));

@@ -12,6 +12,7 @@ struct IgesEntity {
   int type;
   std::string parameters;  // "126,3,..." to the semicolon
   int matrix = 0;          // 1 for the first entity, 3 for the second, ...
+  int status = 0;          // 10000: a dependent of another entity
 };
 
 constexpr char kMetres[] = "1H,,1H;,1Ht,5Ht.igs,3Hgen,1H1,32,38,6,308,15,1Ht,1.,6,1HM;";
@@ -33,7 +34,7 @@ class IgesText {
         parameters.push_back(text);
       }
       std::snprintf(text, sizeof(text), "%8d%8zu%8d%8d%8d%8d%8d%8d%08d", entity.type, first, 0, 0,
-                    0, 0, entity.matrix, 0, 0);
+                    0, 0, entity.matrix, 0, entity.status);
       add('D', text);
       std::snprintf(text, sizeof(text), "%8d%8d%8d%8zu%8d", entity.type, 0, 0,
                     parameters.size() + 1 - first, 0);

@@ -115,6 +115,22 @@ TEST(TransformationsPlaceAndChain) {
   CHECK_LE(apart({p.x, p.y, p.z}, {10 - 0.2 + 1, 20 + 0.1 + 2, 33}), 1e-14);
 }
 
+// A composite curve and an untrimmed 144 place what they are made of, after its own transformation.
+TEST(TransformationsOfAParentPlaceItsDependents) {
+  const char* const turn = "124,0.,-1.,0.,0.,1.,0.,0.,0.,0.,0.,1.,0.;";
+  const char* const shift = "124,1.,0.,0.,1.,0.,1.,0.,2.,0.,0.,1.,3.;";
+  const SplineModel curve =
+      read_entities({{126, arch(), 5, 10000}, {102, "102,1,1;", 7}, {124, turn}, {124, shift}});
+  CHECK(curve.problem.empty());
+  const tools::ControlPoint& p = curve.curves.at(0).points[1];  // (0.1, 0.2, 0) in the entity
+  CHECK_LE(apart({p.x, p.y, p.z}, {-0.2 + 1, 0.1 + 2, 3}), 1e-14);
+  const SplineModel surface = read_entities(
+      {{144, "144,3,0,0,0;", 7}, {128, sheet(), 5, 30000}, {124, turn}, {124, shift}});
+  CHECK(surface.problem.empty());
+  const tools::ControlPoint& q = surface.surfaces.at(0).points[3];  // (0.1, 0.2, 0.05)
+  CHECK_LE(apart({q.x, q.y, q.z}, {-0.2 + 1, 0.1 + 2, 3.05}), 1e-14);
+}
+
 TEST(PlanarCurvesAreFoundFromTheirPoints) {
   std::string bent = arch();
   bent.replace(bent.find("0.2,0.2,0.,"), 11, "0.2,0.2,.1,");

@@ -184,6 +184,8 @@ bool read_iges_directory(SplineSink& sink, IgesFile& file) {
   for (size_t i = 0; i < file.directory.size(); i += 2) {
     IgesEntry entry;
     entry.line = file.directory[i].number;
+    const char subordinate = file.directory[i].text[8 * 8 + 3];  // of the status, field 9
+    entry.is_dependent = subordinate == '1' || subordinate == '3';
     int64_t type_again = 0;
     const struct {
       size_t line, field;

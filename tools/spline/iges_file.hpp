@@ -15,7 +15,8 @@ struct IgesEntry {
   int64_t parameters = 0;  // the first line of its parameter data, from 1
   int64_t matrix = 0;      // the entry of its transformation, by the number of its line; 0: none
   int64_t parameter_lines = 0;
-  uint64_t line = 0;  // in the file
+  bool is_dependent = false;  // physically: what moves its parent moves it, too
+  uint64_t line = 0;          // in the file
 };
 
 /// An IGES file taken apart into its sections; what its entities mean is read_iges.cpp's.

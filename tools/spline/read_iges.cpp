@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "spline/iges_file.hpp"
@@ -62,6 +63,9 @@ class Reader {
   Reader(const IgesFile& file, SplineSink& sink) : file_(file), sink_(sink) {}
 
   void read() {
+    for (const IgesEntry& entry : file_.entries)
+      if (entry.type == 102 || (entry.type == 144 && is_untrimmed(entry))) find_children(entry);
+    if (sink_.failed()) return;
     for (const IgesEntry& entry : file_.entries) {
       if (entry.type == 126) {
         curve(entry);
@@ -240,8 +244,59 @@ class Reader {
            outer == 0 && holes == 0;
   }
 
-  // The transformations of an entry, the nearest first.
+  // What a composite curve (102) lists, and the surface of an untrimmed 144.
+  void find_children(const IgesEntry& parent) {
+    bool is_whole = false;
+    IgesRecord record = parameters_of(file_, parent, sink_, is_whole);
+    int64_t count = 1, pointer = 0;
+    if (is_whole && parent.type == 102)
+      if (const char* wrong = record.needed_integer(count)) {
+        bad_field(record, parent, "the count of its curves", wrong);
+        return;
+      }
+    for (int64_t i = 0; is_whole && i < count; ++i) {
+      if (const char* wrong = record.needed_integer(pointer)) {
+        bad_field(record, parent, "pointer " + std::to_string(i) + " (from 0)", wrong);
+        return;
+      }
+      const IgesEntry* child = iges_entry(file_, pointer);
+      const bool is_nested = child != nullptr && child->type == 102;
+      if (child == nullptr || child == &parent || (parent.type == 144 && child->type != 128) ||
+          (is_nested && parent.matrix != 0)) {
+        sink_.defect(record.line(), "child",
+                     name_of(parent) + " is made of D " + std::to_string(pointer) + ", which is " +
+                         (parent.type == 144 ? "no surface (128)" : "no single curve") +
+                         ": export it again");
+        return;
+      }
+      parents_.emplace(child, &parent);
+    }
+  }
+
+  // The entity that moves this one by its transformation: its only parent, whose dependent it is.
+  bool mover_of(const IgesEntry& entry, const IgesEntry*& mover) {
+    mover = nullptr;
+    const auto [begin, end] = parents_.equal_range(&entry);
+    for (auto at = begin; at != end; ++at) {
+      if (at->second->matrix == 0) continue;
+      if (!entry.is_dependent || std::distance(begin, end) != 1)
+        return sink_.defect(at->second->line, "parent",
+                            name_of(*at->second) + " moves " + name_of(entry) +
+                                ", which also stands alone or in another entity: export it "
+                                "without a transformation");
+      mover = at->second;
+    }
+    return true;
+  }
+
+  // The transformations of an entry, the nearest first, then its parent's.
   bool placement_of(const IgesEntry& entry, Placement& placement) {
+    const IgesEntry* mover = nullptr;
+    return mover_of(entry, mover) && add_matrices(entry, placement) &&
+           (mover == nullptr || add_matrices(*mover, placement));
+  }
+
+  bool add_matrices(const IgesEntry& entry, Placement& placement) {
     const IgesEntry* of = &entry;
     std::set<const IgesEntry*> seen;
     while (of->matrix != 0) {
@@ -282,6 +337,7 @@ class Reader {
 
   const IgesFile& file_;
   SplineSink& sink_;
+  std::multimap<const IgesEntry*, const IgesEntry*> parents_;  // of a child
   size_t passed_over_ = 0;
 };
 
