@@ -115,7 +115,7 @@ Command bake_command() {
             "and gives torques"},
            {"--teach", "NAME", "what the guide is called that a recorded run gives"},
            {"--max-deviation", "METRES",
-            "no place of the run is farther from its guide (default 0.0001)"},
+            "run and guide are nowhere farther from each other (default 0.0001)"},
            {"--catalogue", "LIST", "bakes what each line of LIST says"},
            {"--shard", "I/N", "of a catalogue: every Nth line only, from the Ith on"},
            {"--jobs", "N", "of a catalogue: threads (default: one a core)"},

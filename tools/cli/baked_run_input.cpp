@@ -4,12 +4,10 @@
 #include <cstdlib>
 
 #include "bake/asset/provenance.hpp"
-#include "bake/curve/bake_curve.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
 #include "cli/files.hpp"
-#include "curve/thin_run.hpp"
-#include "firmtouch/curve/closest_point.hpp"
+#include "curve/smooth_run.hpp"
 #include "log/reader.hpp"
 
 namespace firmtouch::cli {
@@ -17,8 +15,6 @@ namespace {
 
 constexpr uint32_t kEnable = 1u << 0,
                    kEncoderFault = 1u << 3;  // of input.lines, as every log has them
-
-constexpr int kMaxTries = 8;
 
 // What a record says of the tool.
 struct Tick {
@@ -79,43 +75,6 @@ SampledRun run_of(const std::vector<Tick>& ticks, const log::Header& header,
   return run;
 }
 
-// The greatest distance of any place from the cubic pieces, as the firmware computes it.
-double max_off_m(const tools::CurvePoints& points, const std::vector<tools::Place>& places,
-                 const std::string& path) {
-  tools::CurvePoints smooth = points;
-  smooth.is_smooth = true;
-  tools::CurveReport report;
-  const std::vector<tools::Section> sections = tools::bake_curve(smooth, "smooth", report);
-  if (!report.problem.empty()) fail_input(path + ": " + report.problem);
-  curve::View view;
-  (void)tools::open_baked(sections, "smooth", view);
-  curve::Hint hint;
-  double max_m = 0;
-  for (const tools::Place& p : places) {
-    const math::Vec3 at{static_cast<float>(p.x_m), static_cast<float>(p.y_m),
-                        static_cast<float>(p.z_m)};
-    max_m = std::max(
-        max_m,
-        static_cast<double>(curve::closest_point(view, at, query::kUnlimited, hint).distance_m));
-  }
-  return max_m;
-}
-
-// Cubic pieces leave the straight ones that were checked: thinned less, until they too keep near.
-tools::ThinnedRun thinned_for(const SampledRun& run, const BakeOptions& options,
-                              const std::string& path) {
-  double max_m = options.max_deviation_m;
-  for (int tries = 0; tries < kMaxTries; ++tries, max_m /= 2) {
-    tools::ThinnedRun thinned = tools::thin_run(run.places, max_m, path);
-    if (!thinned.points.problem.empty() || !options.smooth) return thinned;
-    thinned.max_deviation_m = max_off_m(thinned.points, run.places, path);
-    if (thinned.max_deviation_m <= options.max_deviation_m) return thinned;
-  }
-  fail_input(path + ": no smooth guide through its places keeps within " +
-             tools::number_text(options.max_deviation_m) +
-             " m of the run; allow more, or leave out --smooth");
-}
-
 std::string sentence(const char* format, size_t a, size_t b, double c, double d) {
   char text[300];
   std::snprintf(text, sizeof text, format, a, b, c, d);
@@ -145,7 +104,9 @@ BakedInput bake_run_input(const std::string& path, const BakeOptions& options, P
     log::Reader reader(log::over_memory(source), path);
     const std::vector<Tick> ticks = ticks_of(reader, path);
     const SampledRun run = run_of(ticks, reader.header(), options.model.origin_m);
-    tools::ThinnedRun thinned = thinned_for(run, options, path);
+    tools::ThinnedRun thinned = tools::thin_run(run.places, options.max_deviation_m, path);
+    if (options.smooth)
+      tools::refine_smooth_run(run.places, options.max_deviation_m, path, thinned);
     if (!thinned.points.problem.empty()) fail_input(thinned.points.problem);
     std::vector<std::string>& notes = thinned.points.notes;
     if (run.left_out > 0)
@@ -159,7 +120,7 @@ BakedInput bake_run_input(const std::string& path, const BakeOptions& options, P
     baked.report.insert(
         baked.report.begin() + 1,
         sentence("taught by %zu recorded places: %zu samples; no place is farther from the guide "
-                 "than %.3g m (%.3g m allowed)",
+                 "than %.3g m (%.3g m allowed, both ways)",
                  run.places.size(), thinned.points.samples_m.size(), thinned.max_deviation_m,
                  options.max_deviation_m));
     return baked;
