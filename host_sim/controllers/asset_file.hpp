@@ -10,7 +10,7 @@ namespace firmtouch::host_sim {
 /// An asset file in memory, 16-byte aligned as the firmware requires.
 class AssetFile {
  public:
-  /// Throws Refused with the path if the file cannot be read.
+  /// Throws Refused with the path if the file cannot be read, or is none.
   explicit AssetFile(const std::string& path);
 
   core::Bytes bytes() const;
