@@ -14,6 +14,26 @@ using namespace spline_test;
 using math::Vec3;
 using query::kUnlimited;
 
+constexpr double kRadius = 0.04;
+
+// Half a circle turned about z: eight rational patches between two poles.
+tools::SplineSurface ball() {
+  const double w = std::sqrt(0.5);
+  const double r[] = {0, 1, 1, 1, 0}, z[] = {-1, -1, 0, 1, 1}, weight[] = {1, w, 1, w, 1};
+  const double x[] = {1, 1, 0, -1, -1, -1, 0, 1, 1}, y[] = {0, 1, 1, 1, 0, -1, -1, -1, 0};
+  tools::SplineSurface s;
+  s.degree_u = s.degree_v = 2;
+  s.count_u = 9, s.count_v = 5;
+  s.knots_u = {0, 0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1, 1, 1};
+  s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
+  s.u1 = s.v1 = 1;
+  for (int j = 0; j < 5; ++j)
+    for (int i = 0; i < 9; ++i)
+      s.points.push_back({kRadius * r[j] * x[i], kRadius * r[j] * y[i], kRadius * z[j],
+                          weight[j] * (i % 2 == 0 ? 1 : w)});
+  return s;
+}
+
 }  // namespace
 
 // Four sectors about a pole, which the path passes where all points about it are nearly equally
@@ -63,6 +83,57 @@ TEST(WarmAnswersEqualColdAnswers_AlongAPathPastAPole) {
   CHECK_EQ(wrong, 0u);
   CHECK_EQ(inexact, 0u);
   CHECK(expensive > 20);  // the path does pass where the pole costs
+}
+
+// On the axis whole rings of patches beside the pole are each equally near: none of them may take
+// the budget before the pole is seen.
+TEST(AShortQueryOnTheAxisOfABallFindsItsPole) {
+  const BakedModel baked(of(ball()));
+  uint32_t far = 0, wrong = 0;
+  for (int i = 1; i <= 40; ++i)
+    for (const double side : {-1.0, 1.0}) {
+      const double above_m = 0.0005 * i;
+      spline::Hint hint;
+      const spline::Closest c = closest_point(
+          baked.view, tools::to_vec3({0, 0, side * (kRadius + above_m)}), {640}, hint);
+      far += double{c.distance_m} <= above_m + 1e-3 * kRadius ? 0u : 1u;
+      wrong += double{c.certificate.lower_m} <= above_m && double{c.distance_m} >= above_m - 1e-7
+                   ? 0u
+                   : 1u;
+    }
+  CHECK_EQ(far, 0u);
+  CHECK_EQ(wrong, 0u);
+}
+
+// Everywhere about it the closed form.
+TEST(EveryAnswerAboutABallIsItsRadiusAway) {
+  const BakedModel baked(of(ball()));
+  tools::Random random(77);
+  const double allowed = 1e-6 * 2 * kRadius;
+  uint32_t wrong = 0, inexact = 0;
+  for (int i = 0; i < 3000; ++i) {
+    // Every other one near a pole, on the outside.
+    const double aside = i % 2 == 0 ? 0.3 : 1;
+    const Vec3 p = tools::to_vec3({aside * 0.06 * random.bell(), aside * 0.06 * random.bell(),
+                                   i % 2 == 0 ? 0.045 : 0.06 * random.bell()});
+    const double off = double{math::length(p)};
+    if (off < 0.3 * kRadius) continue;  // about the centre all is near
+    const double truth = std::fabs(std::sqrt(double{p.x} * double{p.x} + double{p.y} * double{p.y} +
+                                             double{p.z} * double{p.z}) -
+                                   kRadius);
+    for (const uint32_t budget : {300u, 5000u, 4000000u}) {
+      spline::Hint hint;
+      const spline::Closest c = closest_point(baked.view, p, {budget}, hint);
+      const double high = double{c.distance_m}, low = double{c.certificate.lower_m};
+      wrong += high >= truth - allowed && low <= truth ? 0u : 1u;
+      inexact += budget < 4000000 || (c.certificate.exact && high <= truth + allowed &&
+                                      low >= truth - allowed - 9e-7 * truth)
+                     ? 0u
+                     : 1u;
+    }
+  }
+  CHECK_EQ(wrong, 0u);
+  CHECK_EQ(inexact, 0u);
 }
 
 // Only halves in u bring its weights together, though it is longer in v beside its point.

@@ -21,6 +21,8 @@ class SurfaceNodes {
         loss_m_(model.head().loss_m),
         p_m_(p_m) {}
 
+  /// At most so many inner nodes are above a piece.
+  uint32_t levels_above() const { return digits_of(2 * piece_count_); }
   uint32_t root() const { return upper(0); }
   uint32_t upper(uint32_t i) const {
     return i >= piece_count_ - 1 ? (i - (piece_count_ - 1)) << 16 | kWholePiece : kUpper + i;
@@ -270,6 +272,13 @@ class SurfaceNodes {
       const float own_m = own2 > 0.0f ? math::square_root(own2) * (1.0f - 0x1p-21f) : 0.0f;
       halves[i].lower_m = own_m > lower_m ? own_m : lower_m;
       (void)f.next(half, half.start);
+      // Along a ring of points equally near, as beside a pole, Newton's step is noise and ends at
+      // an end of the half: from its middle the proof has half as far to reach.
+      for (uint32_t k = 0; k < 2; ++k) {
+        const float size = half.high[k] - half.low[k];
+        const float slope = __builtin_fabsf(f.slope[k]) + __builtin_fabsf(f.bend[2 * k]) * size;
+        if (slope <= f.slope_noise[k]) half.start[k] = half.low[k] + 0.5f * size;
+      }
     }
     return Outcome::kSplit;
   }

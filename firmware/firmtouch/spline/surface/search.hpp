@@ -140,6 +140,8 @@ class SurfaceSearch : public Account {
   // One a level of the tree, one a halving of a leaf's range (24 to the end of float32), three,
   // and what waits of a frontier.
   static constexpr uint32_t kCapacity = kMaxLevels + 24 + 4 + 8;
+  // The same below any entry, without the levels of the tree over the pieces.
+  static constexpr uint32_t kMinLevels = 2 * kMaxHalvingsAcross + 24 + 4;
 
   // A node, as it is on the stack, that need not be looked at.
   void pass(uint32_t node, float lower_m) { passed_.pass(node, lower_m); }
@@ -172,6 +174,7 @@ class SurfaceSearch : public Account {
 
   // Reads a part of a piece, and of its halves the nearer one on and on, as far as the limit or a
   // leaf. What else may hold something nearer goes to the stack. `known`: it has been read already.
+  // A whole piece goes there, too: first the nearest of several is read.
   [[gnu::noinline]] void descend(uint32_t node, float above_m, const Entry* known) {
     const Piece& piece = bounds_.come_near(node >> 16);
     uint32_t u = (node >> 7) & 127u, v = node & 127u;
@@ -205,7 +208,7 @@ class SurfaceSearch : public Account {
           continue;
         }
         if (!is_kept) return pass(node, lower_m);
-        if (is_leaf || lower_m > far_lower_m || work_.left < 2) {
+        if (is_leaf || (node & 0xFFFFu) == kWholePiece || lower_m > far_lower_m || work_.left < 2) {
           keep(node, lower_m, reported, is_leaf);
           if (lower_m > far_lower_m) order(count_ - 2);
           return;
@@ -234,9 +237,12 @@ class SurfaceSearch : public Account {
   }
   void order(uint32_t before) {
     if (!(stack_[before].lower_m < stack_[before + 1].lower_m)) return;
-    const Entry first = stack_[before];
-    stack_[before] = stack_[before + 1];
-    stack_[before + 1] = first;
+    swap(before, before + 1);
+  }
+  [[gnu::noinline]] void swap(uint32_t i, uint32_t k) {
+    const Entry first = stack_[i];
+    stack_[i] = stack_[k];
+    stack_[k] = first;
   }
 
   // False: the budget ended, and what is left stands on the stack.
@@ -292,8 +298,19 @@ class SurfaceSearch : public Account {
       const uint32_t near = halves[1].lower_m < halves[0].lower_m ? 1 : 0;
       put(node | kHalfMark, halves[1 - near].lower_m, halves[1 - near].range);
       put(node | kHalfMark, halves[near].lower_m, halves[near].range);
+      turn_to_nearer();
     }
     return outcome != Outcome::kStopped;
+  }
+  // From a leaf that no proof closes to what may be nearer: where a whole ring of leaves is equally
+  // near, they would take the budget before a pole inside the ring is seen. Only while the stack
+  // has room for the longest descent from there.
+  [[gnu::noinline]] void turn_to_nearer() {
+    if (count_ > kCapacity - kMinLevels - nodes_.levels_above()) return;
+    uint32_t nearest = count_ - 1;
+    for (uint32_t i = 0; i < count_; ++i)
+      if (stack_[i].lower_m < stack_[nearest].lower_m) nearest = i;
+    if (stack_[nearest].lower_m < 0.875f * stack_[count_ - 1].lower_m) swap(nearest, count_ - 1);
   }
   void put(uint32_t node, float lower_m, const Range& range) {
     if (count_ >= kCapacity) return lose(lower_m);
