@@ -105,6 +105,30 @@ TEST(AShortQueryOnTheAxisOfABallFindsItsPole) {
   CHECK_EQ(wrong, 0u);
 }
 
+// Where u turns about the pole, the derivative in u is nothing but rounding: no direction is better
+// than a wrong one.
+TEST(NoDirectionAtThePoleOfABallPointsInward) {
+  const BakedModel baked(of(ball()));
+  tools::Random random(78);
+  uint32_t inward = 0, known = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double aside_m = std::pow(10.0, random.between(-11, -3)),
+                 turn = random.between(0, 6.2832);
+    const double side = i % 2 == 0 ? 1 : -1, off = i % 4 < 2 ? 1.05 : 0.95;
+    spline::Hint hint;
+    const spline::Closest c = closest_point(
+        baked.view,
+        tools::to_vec3({aside_m * std::cos(turn), aside_m * std::sin(turn), side * off * kRadius}),
+        {2000}, hint);
+    if (!(math::length(c.direction) > 0.5f)) continue;
+    ++known;
+    // Of the two sides of a surface it names one; turned about u and v, outward.
+    inward += double{c.direction.z} * side > 0.9 ? 0u : 1u;
+  }
+  CHECK_EQ(inward, 0u);
+  CHECK(known > 500);
+}
+
 // Everywhere about it the closed form.
 TEST(EveryAnswerAboutABallIsItsRadiusAway) {
   const BakedModel baked(of(ball()));

@@ -26,6 +26,14 @@ void move(const Vec3& p_m, const CurveHint& hint, Frontier& frontier) {
   frontier.base_m = frontier.base_m - motion_m - lost_m * (4.0f * kUnit);
 }
 
+// Of the two derivatives; none where these, beside a pole, are little more than what float32 loses
+// of them: from that on the normal is within 25 degrees.
+Vec3 normal_of(const Best& best, float loss_m) {
+  const Vec3 normal = cross(best.along[0], best.along[1]);
+  const float lost = kSlopeNoise * loss_m * (size_of(best.along[0]) + size_of(best.along[1]));
+  return size_of(normal) > 4.0f * lost ? unit_of(normal) : Vec3{};
+}
+
 // `safe_subtree`: what the hint stores, kWithFrontier where the frontier is stored too.
 Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hint,
                Frontier& frontier, uint32_t safe_subtree) {
@@ -59,7 +67,7 @@ Closest answer(const View& model, Vec3 p_m, query::Budget budget, CurveHint& hin
   hint.safe_subtree = safe_subtree;
   hint.safe_subtree_m = 0.0f;
   return answer_at(model, best, is_first ? 0 : search.piece_of(best.node),
-                   is_first ? Vec3{} : unit_of(cross(best.along[0], best.along[1])), certificate);
+                   is_first ? Vec3{} : normal_of(best, model.head().loss_m), certificate);
 }
 
 }  // namespace
