@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bake/spline/spline_pole.hpp"
 #include "device/line_reader.hpp"
 #include "firmtouch/params/table.hpp"
 #include "firmtouch/scene/tool.hpp"
@@ -157,7 +158,9 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
     const Orientation orientation = orientation_of(environment.tessellation());
     out.add("surface_closed %d\nsurface_turned %d", orientation.is_closed ? 1 : 0,
             orientation.normals_inward ? 1 : 0);
-    out.line("mesh_work 5120\ntick_work 5600");  // a patch needs more work than a triangle
+    // A patch needs more work than a triangle, and on the normal at a pole a ring of them.
+    out.line(tools::poles_of(environment.surface()).empty() ? "mesh_work 5120\ntick_work 5600"
+                                                            : "mesh_work 16000\ntick_work 16600");
   }
   out.add("guide_snap %.4g mm\nguide_release %.4g mm", kSnap * diagonal * 1e3,
           kRelease * diagonal * 1e3);

@@ -105,6 +105,29 @@ TEST(AShortQueryOnTheAxisOfABallFindsItsPole) {
   CHECK_EQ(wrong, 0u);
 }
 
+// What contact takes there, from a fortieth of the radius on.
+TEST(AQueryOnTheAxisOfABallEndsWithin16000Units) {
+  const BakedModel baked(of(ball()));
+  uint32_t most = 0, inexact = 0, wide = 0;
+  for (int i = 10; i <= 40; ++i) {
+    const Vec3 p = tools::to_vec3({0, 0, kRadius + 0.0001 * i});
+    spline::Hint hint;
+    const spline::Closest c = closest_point(baked.view, p, kUnlimited, hint);
+    most = c.certificate.work > most ? c.certificate.work : most;
+    inexact += c.certificate.exact ? 0u : 1u;
+    // A move needs no more than a lower bound just short of it.
+    spline::Hint cold;
+    query::Budget budget{2000};
+    budget.band_m = p.z - static_cast<float>(kRadius) - 1e-6f;
+    wide += closest_point(baked.view, p, budget, cold).certificate.lower_m > budget.band_m - 1e-7f
+                ? 0u
+                : 1u;
+  }
+  CHECK(most <= 16000);
+  CHECK_EQ(inexact, 0u);
+  CHECK_EQ(wide, 0u);
+}
+
 // Where u turns about the pole, the derivative in u is nothing but rounding: no direction is better
 // than a wrong one.
 TEST(NoDirectionAtThePoleOfABallPointsInward) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "bake/asset/probes.hpp"
@@ -5,6 +7,7 @@
 #include "bake/asset/step_figures.hpp"
 #include "bake/spline/spline_choice.hpp"
 #include "bake/spline/spline_guide.hpp"
+#include "bake/spline/spline_pole.hpp"
 #include "bake/spline/spline_worst.hpp"
 #include "cli/baked_input.hpp"
 #include "cli/failure.hpp"
@@ -93,6 +96,24 @@ std::string text_of(const tools::SplineGuideReport& guide) {
   return text;
 }
 
+// The first poles; empty: there is none.
+std::string text_of_poles(const spline::View& view) {
+  constexpr size_t kShown = 3;
+  const std::vector<tools::Point> poles = tools::poles_of(view);
+  if (poles.empty()) return "";
+  const double least_m = 1e-6 * static_cast<double>(view.head().extent_m);
+  const auto rounded = [&](double x_m) { return std::abs(x_m) < least_m ? 0.0 : x_m; };
+  std::string text = poles.size() == 1 ? "a pole at" : std::to_string(poles.size()) + " poles, at";
+  for (size_t i = 0; i < std::min(poles.size(), kShown); ++i) {
+    char at[100];
+    std::snprintf(at, sizeof(at), "%s %.4g %.4g %.4g m", i == 0 ? "" : ",", rounded(poles[i].x),
+                  rounded(poles[i].y), rounded(poles[i].z));
+    text += at;
+  }
+  return text + (poles.size() > kShown ? ", ..." : "") +
+         ": contact there may need mesh_work 16000, as `firmtouch-sim scenario` writes it";
+}
+
 std::string ram_of(bool is_surface) {
   return is_surface
              ? std::to_string(sizeof(spline::Hint)) + " bytes a tool that touches it (spline::Hint)"
@@ -160,6 +181,8 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
           sentence(", about %.0f instructions on a Cortex-M7, %.0f a step", instructions,
                    instructions / worst.steps)};
   if (!report.is_surface) baked.report.push_back(text_of(guide));
+  const std::string poles = text_of_poles(view);
+  if (!poles.empty()) baked.report.push_back(poles);
   for (const std::string& note : model.notes) baked.report.push_back(note);
   return baked;
 }

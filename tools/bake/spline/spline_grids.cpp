@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "bake/spline/spline_pole.hpp"
 #include "bake/spline/spline_tree.hpp"
 #include "bake/tree/left_filled.hpp"
 #include "bake/tree/principal_axes.hpp"
@@ -197,8 +198,14 @@ std::vector<spline::CellBends> cells_of(const Cut& cut, uint32_t least, spline::
 
 void store_bends(const Cut& cut, uint32_t cell_level, spline::Grid& grid,
                  std::vector<spline::PatchBend>& bends) {
-  const std::vector<spline::CellBends> cells =
-      cells_of(cut, cell_level + cut.stored.piece.is_rational, grid);
+  const StoredPiece& stored = cut.stored;
+  Point pole_m;
+  // Beside a pole the derivatives along its ring vanish: the less of the rest a cell holds, the
+  // less they are.
+  const uint32_t least = has_pole(stored.piece, stored.coefficients.data(), pole_m)
+                             ? spline::kMaxHalvingsAcross
+                             : cell_level + stored.piece.is_rational;
+  const std::vector<spline::CellBends> cells = cells_of(cut, least, grid);
   float fixed = 0, turning = 0;
   for (const spline::CellBends& cell : cells)
     for (uint32_t k = 0; k < 5; ++k) {

@@ -32,8 +32,8 @@ struct SplineGrids {
   std::vector<spline::Box> boxes;
 };
 
-/// Puts the pieces into the order of the tree over them; cells are `cell_level` halvings of them.
-/// Pre and result as above (grids).
+/// Puts the pieces into the order of the tree over them; cells are `cell_level` halvings of them,
+/// of a piece with a pole its leaves. Pre and result as above (grids).
 SplineGrids build_spline_grids(std::vector<StoredPiece>& pieces, uint32_t cell_level);
 
 }  // namespace firmtouch::tools
