@@ -11,7 +11,7 @@ roof() {
 ASplineIsBakedToldAndAsked() {
   roof >roof.bpt
   bake roof.bpt -o a.fta
-  says 'spline surface, 1 entity' 'worst query that a search found' 'instructions on a Cortex-M7'
+  says 'spline surface, 1 entity' 'worst query seen' 'instructions on a Cortex-M7'
   f info a.fta
   exits 0
   printf '%s\n' "$out" | grep -q 'spline pieces' || fail "info: $out"
@@ -28,6 +28,21 @@ ASplineIsBakedToldAndAsked() {
   f query a.fta roof distance <p.csv
   exits 3
   says "holds no mesh 'roof'" 'splines: roof'
+}
+
+# Counting ended after minutes on the first, and never on the second.
+AFoldedSurfaceIsNamedAndOneWithoutAreaRefused() {
+  printf '1\n1 1\n0 0 0\n1 0 0\n2 0 0\n3 0 1e-3\n' >fold.bpt
+  bake fold.bpt -o a.fta
+  says 'or more' 'warning: ' 'of 4000 queries were not exact after 60000 units of work, nearest to patch 0 in line 2' 'folded on itself'
+  seen=$(printf '%s\n' "$err" | sed -n 's/.*worst seen \([0-9]*\).*/\1/p' | sort -n | tail -n 1)
+  worst=$(printf '%s\n' "$err" | sed -n 's/.*worst query seen: [a-z ]*\([0-9]*\) steps.*/\1/p')
+  [ "$worst" -ge "$seen" ] || fail "worst query $worst, but $seen seen"
+  printf '1\n1 1\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n' >line.bpt
+  f bake line.bpt -o b.fta
+  exits 3
+  says 'line.bpt:2: patch 0 in line 2 has no area' 'remove it'
+  absent b.fta
 }
 
 AUnitGivenStandsAboveTheFiles() {

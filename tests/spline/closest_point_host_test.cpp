@@ -179,7 +179,7 @@ TEST(AtABudgetOfTheBakedWorstAPathIsExact) {
     const BakedModel baked(seed % 2 == 0 ? of(spline_test::random_curve(random, 3, 2))
                                          : of(spline_test::random_surface(random, 3, 3, 1)));
     Hint cold;
-    const tools::WorstQuery worst = tools::find_worst(baked.view);
+    const tools::WorstQuery worst = tools::find_worst(baked.view, {});
     const Budget budget{
         closest_point(baked.view, worst.at_m, query::kUnlimited, cold).certificate.work};
     const double step = 0.002 * baked.report.extent_m;

@@ -93,6 +93,19 @@ TEST(BadPatchFilesAreRefusedWithLineAndRemedy) {
   CHECK(refused_text(patch_file("1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1", 16), {"patch 0", "no extent"}));
 }
 
+// Four points on a line, and a curve drawn along itself.
+TEST(PatchesWithoutAreaAreRefusedByName) {
+  CHECK(refused_text("1\n1 1\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n",
+                     {"part.bpt:2:", "patch 0 in line 2 has no area", "remove it"}));
+  CHECK(refused_text("1\n2 1\n0 0 0\n1 1 0\n2 0 0\n0 0 0\n1 1 0\n2 0 0\n", {"no area"}));
+  const auto is_read = [](const std::string& text) {
+    return tools::read_spline_bytes(text, "part.bpt", 0).problem.empty();
+  };
+  CHECK(is_read("1\n1 1\n0 0 0\n1 0 0\n2 0 0\n3 0 1e-3\n"));
+  CHECK(is_read("1\n1 1\n0 0 0\n1 0 0\n0 1e-5 0\n1 1e-5 0\n"));
+  CHECK(is_read("1\n1 1\n0 0 0\n0 0 0\n1 1 0\n1 0 0\n"));  // with a pole
+}
+
 TEST(PatchFilesCutAnywhereAreRefused) {
   const std::string text = patch_file(kIndices, 16);
   for (size_t length = 0; length + 4 < text.size(); ++length)

@@ -37,13 +37,16 @@ std::vector<math::Vec3> polyline_of(const tools::SplineModel& model) {
   return line;
 }
 
-tools::StepFigures steps_of(const spline::View& view, const tools::SplineModel& model) {
+tools::StepFigures steps_of(const spline::View& view, const tools::SplineModel& model,
+                            tools::CountedQueries& counted) {
   spline::Hint hint;
   return tools::measure_steps(
       view.head().low_m, view.head().high_m,
       tools::path_along(polyline_of(model), view.head().extent_m), [&](math::Vec3 p_m, bool cold) {
         if (cold) hint = spline::Hint{};
-        return spline::closest_point(view, p_m, query::kUnlimited, hint).certificate.steps;
+        const spline::Closest c = spline::closest_point(view, p_m, counted.budget(), hint);
+        counted.take(c, p_m);
+        return c.certificate.steps;
       });
 }
 
@@ -94,6 +97,33 @@ std::string text_of(const tools::SplineGuideReport& guide) {
                 guide.length_m, guide.chains, guide.chains == 1 ? "chain" : "chains",
                 guide.closed_chains, guide.arc_error, static_cast<unsigned long long>(guide.bytes));
   return text;
+}
+
+// Fewer may lie on a set of equally near points by chance.
+constexpr uint32_t kFewUnended = 3;
+
+// By their names in the file, the entities beside which most queries were stopped.
+std::string text_of_unended(const tools::CountedQueries& counted, const tools::SplineModel& model) {
+  std::vector<std::pair<uint32_t, std::string>> worst;  // queries, and whose
+  for (const tools::SplineSurface& surface : model.surfaces) {
+    const auto found = counted.unended_of().find(static_cast<uint32_t>(surface.piece));
+    if (found != counted.unended_of().end()) worst.emplace_back(found->second, surface.where);
+  }
+  for (const tools::SplineCurve& curve : model.curves) {
+    const auto found = counted.unended_of().find(static_cast<uint32_t>(curve.piece));
+    if (found != counted.unended_of().end()) worst.emplace_back(found->second, curve.where);
+  }
+  std::stable_sort(worst.begin(), worst.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  constexpr size_t kNamed = 3;
+  std::string text = std::to_string(counted.unended()) + " of " +
+                     std::to_string(2 * tools::kFigureQueries) + " queries were not exact after " +
+                     std::to_string(tools::CountedQueries::kMaxWork) +
+                     " units of work, nearest to ";
+  for (size_t i = 0; i < std::min(worst.size(), kNamed); ++i)
+    text += (i == 0 ? "" : ", ") + worst[i].second;
+  if (worst.size() > kNamed) text += " and " + std::to_string(worst.size() - kNamed) + " more";
+  return text + ": it is folded on itself, or has hardly any area; rebuild or remove it";
 }
 
 // The first poles; empty: there is none.
@@ -150,8 +180,9 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
     baked.sections.push_back(std::move(section));
 
   progress.stage("counting steps on " + name, 0.25);
-  const tools::StepFigures steps = steps_of(view, model);
-  const tools::WorstQuery worst = tools::find_worst(view);
+  tools::CountedQueries counted;
+  const tools::StepFigures steps = steps_of(view, model, counted);
+  const tools::WorstQuery worst = tools::find_worst(view, counted.worst());
   tools::set_worst_steps(baked.sections, name, worst.steps);
   const double instructions =
       tools::cortex_m7_instructions(report.is_surface, worst.steps, worst.evaluations);
@@ -161,6 +192,8 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
       tools::text_section(asset::kBoundsSection, name, facts_of(report, steps, worst, guide)));
   baked.sections.push_back(provenance_of(path, name, source, options.text));
 
+  // Of queries that were stopped the steps are those until then.
+  const std::string stopped = counted.unended() == 0 ? "" : " or more";
   baked.report = {
       kind_of(report) + ", " + std::to_string(report.entities) +
           (report.entities == 1 ? " entity" : " entities") +
@@ -173,17 +206,21 @@ BakedInput bake_spline_input(const std::string& path, const BakeOptions& options
       "RAM " + ram_of(report.is_surface) + ", " + std::to_string(sizeof(spline::View)) +
           " for the view here; the asset stays in flash",
       sentence("steps at 2000 random points, each on its own: mean %.1f, worst seen %.0f",
-               steps.random_mean, steps.random_worst),
+               steps.random_mean, steps.random_worst) +
+          stopped,
       sentence("steps on a path of 2000 points beside it: mean %.1f, worst seen %.0f",
-               steps.path_mean, steps.path_worst),
-      sentence("worst query that a search found: %.0f steps, %.0f of them evaluations", worst.steps,
-               worst.evaluations) +
+               steps.path_mean, steps.path_worst) +
+          stopped,
+      std::string("worst query seen: ") + (worst.has_ended ? "" : "at least ") +
+          sentence("%.0f steps, %.0f of them evaluations", worst.steps, worst.evaluations) +
           sentence(", about %.0f instructions on a Cortex-M7, %.0f a step", instructions,
                    instructions / worst.steps)};
   if (!report.is_surface) baked.report.push_back(text_of(guide));
   const std::string poles = text_of_poles(view);
   if (!poles.empty()) baked.report.push_back(poles);
   for (const std::string& note : model.notes) baked.report.push_back(note);
+  if (counted.unended() >= kFewUnended)
+    baked.report.push_back("warning: " + text_of_unended(counted, model));
   return baked;
 }
 

@@ -41,6 +41,24 @@ bool lies_in_a_plane(const std::vector<ControlPoint>& points) {
   return true;
 }
 
+// Whether its derivatives are parallel wherever they are looked at: what it covers is a curve.
+bool has_no_area(const SplineSurface& s) {
+  constexpr int kSamples = 9;     // of each parameter: within, so that borders may be points
+  constexpr double kStep = 1e-4;  // of each parameter's range, to each side
+  constexpr double kSine = 1e-6, kRounding = 1e-12;  // the latter of the extent
+  const double least = kRounding * extent_of(s.points);
+  const double du = s.u1 - s.u0, dv = s.v1 - s.v0;
+  for (int j = 0; j < kSamples; ++j)
+    for (int i = 0; i < kSamples; ++i) {
+      const double u = s.u0 + du * (i + 0.47) / kSamples, v = s.v0 + dv * (j + 0.47) / kSamples;
+      const Point a = point_at(s, u + kStep * du, v) - point_at(s, u - kStep * du, v);
+      const Point b = point_at(s, u, v + kStep * dv) - point_at(s, u, v - kStep * dv);
+      const double of_a = length(a), of_b = length(b);
+      if (std::min(of_a, of_b) > least && length(cross(a, b)) > kSine * of_a * of_b) return false;
+    }
+  return true;
+}
+
 // Pieces that a range of knots is cut into.
 size_t spans_within(const std::vector<double>& knots, double from, double to) {
   size_t spans = 0;
@@ -107,6 +125,13 @@ void SplineSink::add(SplineSurface surface, uint64_t line) {
            surface.where +
                " has no extent (less than a thousandth of a millimetre): remove it, "
                "or check the unit");
+    return;
+  }
+  if (has_no_area(surface)) {
+    defect(line, "area",
+           surface.where +
+               " has no area: all of it lies on one curve, beside which no query could be exact; "
+               "remove it");
     return;
   }
   report_dropped(surface.where, spans - kept, "extent");

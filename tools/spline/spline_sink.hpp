@@ -40,7 +40,7 @@ class SplineSink {
   bool failed() const { return !problem_.empty(); }
 
   /// Checked knots, weights and coordinates. Notes pieces without length and planar curves;
-  /// rejects what has no length at all.
+  /// rejects what has no length or no area at all.
   void add(SplineCurve curve, uint64_t line);
   void add(SplineSurface surface, uint64_t line);
   /// The model, or the problem with its count.

@@ -12,7 +12,8 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr uint32_t kAnywhere = 1500, kBetween = 1000, kMaxCentres = 1500;
-constexpr uint32_t kMaxWork = 60000;  // of one query: what takes more is reported as that
+constexpr uint32_t kLongWork = 300 * CountedQueries::kMaxWork;
+constexpr size_t kLong = 32;  // queries that may take that
 constexpr size_t kClimbers = 12;
 constexpr int kHillClimbs = 120;
 
@@ -23,8 +24,17 @@ class Finder {
   void query(const Point& p) {
     const math::Vec3 at_m = to_vec3(p);
     spline::Hint hint;
-    const spline::Closest c = spline::closest_point(model_, at_m, {kMaxWork}, hint);
-    seen_.push_back({c.certificate.steps, c.evaluations, at_m});
+    const spline::Closest c = spline::closest_point(model_, at_m, counted_.budget(), hint);
+    counted_.take(c, at_m);
+    seen_.push_back({c.certificate.steps, c.evaluations, at_m, c.certificate.exact});
+    if (!c.certificate.exact && stopped_.size() < kLong) stopped_.push_back(at_m);
+  }
+
+  void query_middle() {
+    const spline::Head& head = model_.head();
+    query((to_point({head.low_m[0], head.low_m[1], head.low_m[2]}) +
+           to_point({head.high_m[0], head.high_m[1], head.high_m[2]})) *
+          0.5);
   }
 
   void query_anywhere() {
@@ -75,7 +85,7 @@ class Finder {
     }
   }
 
-  WorstQuery hill_climb() {
+  void hill_climb() {
     sort();
     const std::vector<WorstQuery> starts(
         seen_.begin(),
@@ -93,9 +103,20 @@ class Finder {
         else
           size_m *= 0.93;
       }
-      if (best.steps > worst_.steps) worst_ = best;
     }
-    return worst_;
+  }
+
+  /// The most expensive of all, or `seen`, after those that were stopped have gone on.
+  WorstQuery worst(const WorstQuery& seen) const {
+    WorstQuery worst = counted_.worst().steps > seen.steps ? counted_.worst() : seen;
+    for (const math::Vec3& at_m : stopped_) {
+      spline::Hint hint;
+      const spline::Closest c = spline::closest_point(model_, at_m, {kLongWork}, hint);
+      if (c.certificate.steps > worst.steps)
+        worst = {c.certificate.steps, c.evaluations, at_m, c.certificate.exact};
+      if (!c.certificate.exact) break;  // others would say no more
+    }
+    return worst;
   }
 
  private:
@@ -123,17 +144,30 @@ class Finder {
   const spline::View& model_;
   Random random_{7};
   std::vector<WorstQuery> seen_;
-  WorstQuery worst_;
+  CountedQueries counted_;
+  std::vector<math::Vec3> stopped_;
 };
 
 }  // namespace
 
-WorstQuery find_worst(const spline::View& model) {
+void CountedQueries::take(const spline::Closest& answer, math::Vec3 at_m) {
+  const query::Certificate& certificate = answer.certificate;
+  if (!certificate.exact) {
+    ++unended_;
+    ++unended_of_[answer.piece];
+  }
+  if (certificate.steps > worst_.steps)
+    worst_ = {certificate.steps, answer.evaluations, at_m, certificate.exact};
+}
+
+WorstQuery find_worst(const spline::View& model, const WorstQuery& seen) {
   Finder finder(model);
+  finder.query_middle();
   finder.query_anywhere();
   finder.query_between();
   finder.query_centres();
-  return finder.hill_climb();
+  finder.hill_climb();
+  return finder.worst(seen);
 }
 
 double cortex_m7_instructions(bool is_surface, double steps, double evaluations) {
