@@ -10,8 +10,8 @@ namespace firmtouch::spline {
 /// is: what a query of another asset wrote makes answers wrong, though never reads what is not
 /// there.
 struct Frontier {
-  // Where most of a model is about as near, 64 have no room for what is within reach (DESIGN.md,
-  // "Splines").
+  // Where most of a model is about as near, 64 have no room for what is within reach
+  // (spline/README.md, "Coherence").
   static constexpr uint32_t kMax = 128;
 
   float base_m = 0.0f;  // less all motion since it was stored: may be below 0
@@ -27,7 +27,7 @@ struct Frontier {
 constexpr uint32_t kWithFrontier = 0;
 
 /// What a query of a spline curve leaves for the next one (query/hint.hpp). A surface queried with
-/// it returns the same, with more visits. No value of the place can make an answer wrong.
+/// it returns the same, with more visits. No value of `foot` and `fine` can make an answer wrong.
 struct CurveHint : query::HintBase {
   uint32_t foot = query::kNowhere;          // piece and parameter of the last answer
   uint8_t fine[2] = {0, 0};                 // lower bits of a surface's two parameters
