@@ -80,7 +80,7 @@ TEST(RepeatedSamplesAreDroppedAndReported) {
   CHECK_EQ(points.rows[2], 5u);
   CHECK_EQ(points.notes.size(), 1u);
   CHECK(has(points.notes[0], "dropped 3 samples"));
-  CHECK(has(points.notes[0], "row 1"));
+  CHECK(has(points.notes[0], "line 3"));
 }
 
 TEST(AClosedCurveKeepsItsLastSample) {
@@ -106,7 +106,7 @@ TEST(WhatIsNotAFiniteNumberIsRefusedWithItsLine) {
   CHECK(refused("x,y,z\n0,0,0\n1,0,1e999\n", {"line 3", "too large"}));
   CHECK(refused("x,y,z\n0,0,0\n1,,0\n", {"line 3", "y = ''"}));
   CHECK(refused("x,y,z\n0,0,0\n1,0x1p3,0\n", {"line 3", "y = '0x1p3'"}));
-  CHECK(refused("x,y,z\n0,0,0\n2e9,0,0\n", {"row 1", "1e9 m", "--unit"}));
+  CHECK(refused("x,y,z\n0,0,0\n2e9,0,0\n", {"line 3", "1e9 m", "--unit"}));
 }
 
 TEST(AMissingHeaderIsRefused) {

@@ -101,7 +101,7 @@ TEST(BadCoordinatesAreRefused) {
   CHECK(refused_arch("0.1,0.2", "2e9,0.2", {"part.igs:5:", "control point 1", "1e9 m", "unit"}));
   CHECK(refused_arch("0.1,0.2", "0.1x,0.2", {"coordinate 3", "`0.1x`", "is not a number"}));
   CHECK(refused_arch("0.1,0.2", "3Habc,0.2", {"coordinate 3", "is a text"}));
-  CHECK(refused_arch("0.1,0.2", ",0.2", {"coordinate 3", "is missing"}));
+  CHECK(refused_arch("0.1,0.2", ",0.2", {"coordinate 3", "is missing", "field is empty"}));
 }
 
 TEST(ACurveOrSurfaceWithoutLengthIsRefused) {

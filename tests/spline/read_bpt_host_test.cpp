@@ -93,6 +93,14 @@ TEST(BadPatchFilesAreRefusedWithLineAndRemedy) {
   CHECK(refused_text(patch_file("1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1", 16), {"patch 0", "no extent"}));
 }
 
+TEST(DecimalCommasInAPatchFileAreNamed) {
+  CHECK(refused_text("1\n1 1\n0,5 0,5 0,0\n1,5 0,0 0,0\n0,0 1,5 0,0\n1,5 1,5 0,0\n",
+                     {"comes after the last point", "decimal commas", "0.1, not `0,1`"}));
+  const std::string text = "1\n1 1\n0,0,0\n1,0,0\n0,1,0\n1,1,nan\n";
+  const std::string problem = tools::read_spline_bytes(text, "part.bpt", 0).problem;
+  CHECK(!problem.empty() && problem.find("decimal") == problem.npos);
+}
+
 // Four points on a line, and a curve drawn along itself.
 TEST(PatchesWithoutAreaAreRefusedByName) {
   CHECK(refused_text("1\n1 1\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n",

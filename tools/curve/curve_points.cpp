@@ -22,24 +22,30 @@ double distance_m(math::Vec3 a, math::Vec3 b) {
   return std::sqrt(square(a.x, b.x) + square(a.y, b.y) + square(a.z, b.z));
 }
 
+std::string place_of(const CurvePoints& points, size_t i) {
+  if (i < points.lines.size()) return "line " + std::to_string(points.lines[i]);
+  return "row " + std::to_string(points.rows[i]) + " (from 0)";
+}
+
 void drop_repeated(CurvePoints& points) {
   size_t kept = 0, dropped = 0;
-  uint32_t first_dropped = 0;
+  std::string first_dropped;
   for (size_t i = 0; i < points.samples_m.size(); ++i) {
     if (kept > 0 && distance_m(points.samples_m[kept - 1], points.samples_m[i]) < kMinSpacing_m) {
-      if (dropped++ == 0) first_dropped = points.rows[i];
+      if (dropped++ == 0) first_dropped = place_of(points, i);
       continue;
     }
     points.samples_m[kept] = points.samples_m[i];
+    if (!points.lines.empty()) points.lines[kept] = points.lines[i];
     points.rows[kept++] = points.rows[i];
   }
   points.samples_m.resize(kept);
   points.rows.resize(kept);
+  if (!points.lines.empty()) points.lines.resize(kept);
   if (dropped == 0) return;
   points.notes.push_back("dropped " + std::to_string(dropped) +
                          (dropped == 1 ? " sample that repeats" : " samples that repeat") +
-                         " the one before (first: row " + std::to_string(first_dropped) +
-                         ", counted from 0)");
+                         " the one before (first: " + first_dropped + ")");
 }
 
 // A ring computed in floating point (sin 2 pi = -2.4e-16) ends beside its first sample.
@@ -69,8 +75,8 @@ void mend_curve(CurvePoints& points, const std::string& name) {
   for (size_t i = 0; i < points.samples_m.size(); ++i) {
     const math::Vec3& s = points.samples_m[i];
     if (fits(s.x) && fits(s.y) && fits(s.z)) continue;
-    points.problem = name + ": row " + std::to_string(points.rows[i]) +
-                     " (from 0) lies more than 1e9 m from the origin: check its numbers and --unit";
+    points.problem = name + ": " + place_of(points, i) +
+                     " lies more than 1e9 m from the origin: check its numbers and --unit";
     return;
   }
   const size_t rows = points.samples_m.size();

@@ -12,6 +12,7 @@ namespace firmtouch::tools {
 struct CurvePoints {
   std::vector<math::Vec3> samples_m;
   std::vector<uint32_t> rows;      // of each sample: its row in the file from 0, the header apart
+  std::vector<uint32_t> lines;     // the same as lines of a text; empty: it is none
   bool is_smooth = false;          // cubic pieces between the samples rather than straight ones
   bool with_tree = false;          // bake the k-d tree, which nearest_constraint() reads
   uint32_t run_levels = 0;         // how often a run is halved; 0: as the baker chooses

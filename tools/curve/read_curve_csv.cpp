@@ -129,6 +129,7 @@ class Reader {
         return fail_number(k, fields_[column_[k]], "is too large for a coordinate");
     points_.samples_m.push_back(p);
     points_.rows.push_back(next_row_++);
+    points_.lines.push_back(static_cast<uint32_t>(rows_.line()));
   }
 
   void fail_number(size_t axis, std::string_view field, const char* wrong) {

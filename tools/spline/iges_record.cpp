@@ -8,6 +8,7 @@ namespace firmtouch::tools {
 namespace {
 
 constexpr char kMissing[] = "is missing: the entity's parameters end before it";
+constexpr char kEmpty[] = "is missing: its field is empty, give it a value";
 constexpr char kCut[] = "is cut short: the record has no end";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -118,13 +119,15 @@ const char* IgesRecord::string(std::string& value) {
 }
 
 const char* IgesRecord::needed_integer(int64_t& value) {
+  const bool was_ended = ended_;
   if (const char* wrong = integer(value)) return wrong;
-  return field_.empty() ? kMissing : nullptr;
+  return !field_.empty() ? nullptr : was_ended ? kMissing : kEmpty;
 }
 
 const char* IgesRecord::needed_number(double& value) {
+  const bool was_ended = ended_;
   if (const char* wrong = number(value)) return wrong;
-  return field_.empty() ? kMissing : nullptr;
+  return !field_.empty() ? nullptr : was_ended ? kMissing : kEmpty;
 }
 
 const char* IgesRecord::finish() {

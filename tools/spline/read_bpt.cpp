@@ -10,6 +10,8 @@
 namespace firmtouch::tools {
 namespace {
 
+constexpr char kComma[] =
+    "; commas separate numbers here: were decimal commas used? Write 0.1, not `0,1`";
 constexpr int64_t kMaxPatches = 1000000, kMaxPoints = 16 * kMaxPatches;
 
 /// The numbers of a text, each with its line.
@@ -19,7 +21,9 @@ class Numbers {
   bool next(std::string_view& word) {
     while (rest_.empty()) {
       if (!scan_.find_word(rest_)) return false;
+      if (line_ != scan_.line()) in_line_ = 0;
       line_ = scan_.line();
+      see_commas();
       pass_commas();
     }
     const size_t end = rest_.find(',');
@@ -30,18 +34,31 @@ class Numbers {
   }
   /// Whether the line of the number read last goes on.
   bool more_in_line() {
-    if (rest_.empty() && scan_.next_word(rest_)) pass_commas();
+    if (rest_.empty() && scan_.next_word(rest_)) {
+      see_commas();
+      pass_commas();
+    }
     return !rest_.empty();
   }
+  /// Whether a line had several words that a comma divides, as `0,1 0,2`: decimals, perhaps.
+  bool has_decimal_commas() const { return has_decimal_commas_; }
   uint64_t line() const { return line_ == 0 ? scan_.line() : line_; }
 
  private:
+  void see_commas() {
+    const size_t comma = rest_.find(',');
+    const bool is_divided = comma != rest_.npos && comma > 0 && comma + 1 < rest_.size();
+    in_line_ += is_divided ? 1 : 0;
+    has_decimal_commas_ = has_decimal_commas_ || in_line_ > 1;
+  }
   void pass_commas() {
     while (!rest_.empty() && rest_.front() == ',') rest_.remove_prefix(1);
   }
   TextScan scan_;
   std::string_view rest_;
   uint64_t line_ = 0;
+  uint32_t in_line_ = 0;  // words that a comma divides
+  bool has_decimal_commas_ = false;
 };
 
 struct Patch {
@@ -66,8 +83,8 @@ class Reader {
       return;
     std::string_view word;
     if (numbers_.next(word)) {
-      sink_.fail(numbers_.line(), "`" + std::string(word.substr(0, 40)) +
-                                      "` comes after the last point: mend the counts");
+      fail(numbers_.line(),
+           "`" + std::string(word.substr(0, 40)) + "` comes after the last point: mend the counts");
       return;
     }
     for (size_t i = 0; i < patches_.size(); ++i) take(i);
@@ -75,10 +92,13 @@ class Reader {
   }
 
  private:
+  bool fail(uint64_t line, const std::string& what) {
+    return sink_.fail(line, numbers_.has_decimal_commas() ? what + kComma : what);
+  }
   bool word_of(std::string_view& word, const std::string& wanted) {
     if (numbers_.next(word)) return true;
-    return sink_.fail(numbers_.line(),
-                      "the file ends before " + wanted + ": it is cut short, export it again");
+    return fail(numbers_.line(),
+                "the file ends before " + wanted + ": it is cut short, export it again");
   }
 
   bool integer(const std::string& what, int64_t& value) {
@@ -86,16 +106,16 @@ class Reader {
     if (!word_of(word, what)) return false;
     const char* wrong = read_integer(word, value);
     return wrong == nullptr ||
-           sink_.fail(numbers_.line(), what + ": `" + std::string(word.substr(0, 40)) + "` " +
-                                           wrong + ": mend it, or export again");
+           fail(numbers_.line(), what + ": `" + std::string(word.substr(0, 40)) + "` " + wrong +
+                                     ": mend it, or export again");
   }
 
   bool count(const std::string& of, int64_t most, int64_t& value) {
     if (!integer("the number of " + of, value)) return false;
     return (value >= 1 && value <= most) ||
-           sink_.fail(numbers_.line(), "the number of " + of + " is " + std::to_string(value) +
-                                           ", but 1 to " + std::to_string(most) +
-                                           " can be read: mend it");
+           fail(numbers_.line(), "the number of " + of + " is " + std::to_string(value) +
+                                     ", but 1 to " + std::to_string(most) +
+                                     " can be read: mend it");
   }
 
   bool read_patches(int64_t patches, uint64_t line, int64_t first, int64_t second) {
@@ -109,8 +129,8 @@ class Reader {
           return false;
         if (k == 0) patch.line = i == 0 ? line : numbers_.line();
         if (k > 1 || i > 0 ? numbers_.line() != patch.line : false)
-          return sink_.fail(patch.line, "patch " + std::to_string(i) +
-                                            " has not 16 numbers in its line: mend it");
+          return fail(patch.line,
+                      "patch " + std::to_string(i) + " has not 16 numbers in its line: mend it");
       }
       patches_.push_back(patch);
     }
@@ -127,9 +147,9 @@ class Reader {
         if (!integer(name, second)) return false;
       }
       if (first < 1 || first > kMaxDegree || second < 1 || second > kMaxDegree)
-        return sink_.fail(line, name + " is of degrees " + std::to_string(first) + " and " +
-                                    std::to_string(second) +
-                                    ", but 1 to 5 are read: mend it, or lower them at export");
+        return fail(line, name + " is of degrees " + std::to_string(first) + " and " +
+                              std::to_string(second) +
+                              ", but 1 to 5 are read: mend it, or lower them at export");
       const int64_t points = (first + 1) * (second + 1);
       points_.clear();
       if (!read_points(points)) return false;
@@ -159,9 +179,9 @@ class Reader {
           return false;
         const char* wrong = read_number(word, value);
         if (wrong != nullptr)
-          return sink_.fail(numbers_.line(), "point " + std::to_string(i + 1) + ": `" +
-                                                 std::string(word.substr(0, 40)) + "` " + wrong +
-                                                 ": mend it, or export again");
+          return fail(numbers_.line(), "point " + std::to_string(i + 1) + ": `" +
+                                           std::string(word.substr(0, 40)) + "` " + wrong +
+                                           ": mend it, or export again");
       }
       points_.push_back({xyz[0] * unit_m_, xyz[1] * unit_m_, xyz[2] * unit_m_, 1});
     }
