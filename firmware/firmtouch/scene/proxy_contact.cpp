@@ -37,15 +37,18 @@ void lead_out(const ProxyContact& contact, float was_m, ProxyTouch& touch,
     model.is_uncertain = true;
     return;
   }
+  const float size2 = math::dot(near.outward, near.outward);
+  if (near.sign == 0 || !(size2 >= 0.98f && size2 <= 1.02f)) return;
   const float rise = touch.inside_s < kLeadOutRise_s ? touch.inside_s / kLeadOutRise_s : 1.0f;
   const float depth_m = near.distance_m, out_m = math::larger(was_m - depth_m, 0.0f);
   float push_N = math::smaller(touch.material.stiffness_N_per_m * depth_m, kLeadOut_N);
   // Its way out is damped; against a hand that goes farther in a damper would push harder.
   push_N = push_N - touch.material.damping_N_s_per_m * out_m / contact.passed_s;
-  Material material;
-  if (push_N > 0.0f) material.stiffness_N_per_m = push_N * rise / depth_m;
-  touch.penetration_m = add_contact(model, contact.position_m, 0.0f,
-                                    {-near.distance_m, near.outward, near.sign}, material);
+  servo::ContactPlane plane;
+  plane.normal = near.outward;
+  plane.offset_m = math::dot(near.outward, contact.position_m) + depth_m;
+  if (push_N > 0.0f) plane.stiffness_N_per_m = push_N * rise / depth_m;
+  if (math::is_finite(plane.offset_m) && add_plane(model, plane)) touch.penetration_m = depth_m;
 }
 
 }  // namespace
