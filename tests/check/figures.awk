@@ -22,7 +22,6 @@ files == 1 {
     if (!/: all\)/) board = board " " $NF  # of another composition than the full one
   }
   if ($1 == "instructions" && $4 == "p99.9") measured[model] = "mean " commas($3) ", worst " commas($7)
-  if ($1 == "steps" || $1 == "visits") measured[model " steps"] = "mean " $3 ", worst " $7
   if ($1 == "tick" && $2 == "servo") servo = commas($3) " and worst " commas($4)
   if ($1 == "tick") measured["tick " $2] = "mean " commas($3) ", worst " commas($4)
   if ($1 == "shell" && hull == "") hull = "mean " commas($6) " and worst " commas($10)  # of the demo part, first
@@ -39,7 +38,7 @@ files == 3 { if (hull != "" && index($0, hull)) is_hull = 1; next }
 !/^\|/ { next }
 {
   key = ""
-  if (/`tools\/bench\/cortex-m7`/) key = /^\| (steps|visits)/ ? "demo part steps" : "demo part"
+  if (/`tools\/bench\/cortex-m7`/) key = "demo part"
   if (/`tools\/bench\/cortex-m7 MODEL`/ && /rocker-arm/) key = "rocker-arm"
   if (/^\| a whole tick/) key = "tick mps2-an500"
   if (match($0, /`tools\/check\/image [a-z0-9-]+`/)) key = substr($0, RSTART + 19, RLENGTH - 20) (/\(`mesh`\)/ ? " mesh)" : "")
@@ -57,7 +56,7 @@ END {
   if (!is_hull) { print "firmware/firmtouch/hull/README.md: the base hull of the demo part was measured with " hull; bad = 1 }
   if (!is_servo) { print "firmware/firmtouch/servo/README.md: the servo at two rates was measured with mean " servo; bad = 1 }
   if (!is_trusted) { print "firmware/firmtouch/asset/README.md: `mesh;guide` takes " trusted() " bytes of flash"; bad = 1 }
-  split("demo part,demo part steps,tick mps2-an500,mps2-an500,netduinoplus2 mesh)", wanted, ",")
+  split("demo part,tick mps2-an500,mps2-an500,netduinoplus2 mesh)", wanted, ",")
   for (i = 1; i in wanted; ++i) {
     if (!(wanted[i] in measured)) { print "the table holds no figures of " wanted[i]; bad = 1 }
     if (!(wanted[i] in seen)) { print "README.md: there is no row of " wanted[i]; bad = 1 }

@@ -43,7 +43,7 @@ struct Nearness {
   math::Vec3 outward;    // unit normal at the feature, for a tool that begins inside
   int8_t sign = 0;       // +1 outside, -1 inside, 0 unknown, or the shape has no inside
   bool has_inside = false;
-  bool is_exact = false;  // both bounds are within 4e-7 of the shape's size of the truth
+  bool is_exact = false;  // as query::Certificate::exact
   bool is_of_base_hull = false;
 };
 
