@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/spline/piece_point.hpp"
+
 namespace firmtouch::host_sim {
 namespace {
 
@@ -57,21 +59,7 @@ double winding(const Tessellation& tessellation, Vec p) {
 
 Vec spline_point(const spline::View& model, uint32_t index, double s, double t) {
   const spline::Piece& piece = model.pieces()[index];
-  const uint32_t stride = piece.is_rational != 0 ? 4 : 3, columns = piece.degree_u + 1u;
-  double sum[4] = {0, 0, 0, piece.is_rational != 0 ? 0.0 : 1.0};
-  for (uint32_t k = 0; k < stride; ++k)
-    for (uint32_t j = piece.degree_v + 1u; j-- > 0;) {
-      double row = 0;
-      for (uint32_t i = columns; i-- > 0;)
-        row = row * s +
-              static_cast<double>(
-                  model.coefficients()[piece.coefficients + (j * columns + i) * stride + k]);
-      sum[k] = sum[k] * t + row;
-    }
-  const double per = 1 / sum[3];
-  return {static_cast<double>(piece.origin_m[0]) + sum[0] * per,
-          static_cast<double>(piece.origin_m[1]) + sum[1] * per,
-          static_cast<double>(piece.origin_m[2]) + sum[2] * per};
+  return tools::point_of_piece(piece, model.coefficients().data() + piece.coefficients, s, t);
 }
 
 double spline_distance_m(const spline::View& surface, Vec p_m) {

@@ -159,8 +159,9 @@ void add_setting(TextLines& out, const Environment& environment, const Box& box,
     out.add("surface_closed %d\nsurface_turned %d", orientation.is_closed ? 1 : 0,
             orientation.normals_inward ? 1 : 0);
     // A patch needs more work than a triangle, and on the normal at a pole a ring of them.
-    out.line(tools::poles_of(environment.surface()).empty() ? "mesh_work 5120\ntick_work 5600"
-                                                            : "mesh_work 16000\ntick_work 16600");
+    const bool has_pole = !tools::poles_of(environment.surface()).empty();
+    const uint32_t work = has_pole ? tools::kPoleWork : 5120;
+    out.add("mesh_work %u\ntick_work %u", work, work + 480);
   }
   out.add("guide_snap %.4g mm\nguide_release %.4g mm", kSnap * diagonal * 1e3,
           kRelease * diagonal * 1e3);

@@ -141,7 +141,8 @@ std::string text_of_poles(const spline::View& view) {
     text += at;
   }
   return text + (poles.size() > kShown ? ", ..." : "") +
-         ": contact there may need mesh_work 16000, as `firmtouch-sim scenario` writes it";
+         ": contact right above may need mesh_work " + std::to_string(tools::kPoleWork) +
+         ", more than a controller does in 1 ms; `firmtouch-sim scenario` writes it";
 }
 
 std::string ram_of(bool is_surface) {

@@ -3,26 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/spline/piece_point.hpp"
+
 namespace firmtouch::tools {
 namespace {
 
 constexpr double kPoint = 1e-5;     // of the longest edge of a piece
 constexpr int kSamples = 8;         // of an edge
 constexpr double kSamePole = 1e-5;  // of the extent
-
-Point point_of(const spline::Piece& piece, const float* coefficients, double s, double t) {
-  const uint32_t stride = piece.is_rational != 0 ? 4 : 3, columns = piece.degree_u + 1u;
-  double sum[4] = {0, 0, 0, piece.is_rational != 0 ? 0.0 : 1.0};
-  for (uint32_t k = 0; k < stride; ++k)
-    for (uint32_t j = piece.degree_v + 1u; j-- > 0;) {
-      double row = 0;
-      for (uint32_t i = columns; i-- > 0;)
-        row = row * s + static_cast<double>(coefficients[(j * columns + i) * stride + k]);
-      sum[k] = sum[k] * t + row;
-    }
-  const float(&o)[3] = piece.origin_m;
-  return to_point({o[0], o[1], o[2]}) + Point{sum[0], sum[1], sum[2]} * (1 / sum[3]);
-}
 
 }  // namespace
 
@@ -32,8 +20,8 @@ bool has_pole(const spline::Piece& piece, const float* coefficients, Point& at_m
     const double side = edge % 2 == 0 ? -1 : 1;
     const auto point_at = [&](int i) {
       const double along = 2.0 * i / kSamples - 1;
-      return edge < 2 ? point_of(piece, coefficients, along, side)
-                      : point_of(piece, coefficients, side, along);
+      return edge < 2 ? point_of_piece(piece, coefficients, along, side)
+                      : point_of_piece(piece, coefficients, side, along);
     };
     double size = 0;
     const Point first = point_at(0);

@@ -16,8 +16,8 @@ constexpr double kUnresolved = 5e-7;
 
 /// Finds sheets of opposite orientation that are nearer than float32 resolves: a query cannot
 /// resolve which of them is nearer, and they give opposite signs, at any depth. Two walls with a
-/// gap, or the two sides of a thin sheet. Faces with a common edge are left to the proof of the
-/// signs: their gap opens with the distance from it.
+/// gap, or the two sides of a thin sheet. Faces with a common edge, and those that slivers
+/// part from one, are left to the proof of the signs: their gap opens with the distance from it.
 class NearSheets {
  public:
   /// `mates`: Edges(surface.faces).mates(). All of them live as long as this.
