@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/analytic.hpp"
 #include "firmtouch/scene/proxy.hpp"
 #include "firmtouch/scene/spline_touched.hpp"
 #include "scene/spline_rig.hpp"
@@ -57,6 +58,7 @@ struct Drag {
 
 TEST(SplineProxy_AnyHandAndFriction_KeepsTheTheorems) {
   for (const float friction : {0.0f, 0.05f, 0.5f, 2.0f}) {
+    const float bends[] = {0, std::numeric_limits<float>::quiet_NaN(), 1e30f, -1e3f, 300};
     Drag drag(friction);
     tools::Random random(5);
     math::Vec3 hand_m{0, 0, 0.06f}, step_m;
@@ -69,12 +71,86 @@ TEST(SplineProxy_AnyHandAndFriction_KeepsTheTheorems) {
       hand_m = hand_m + step_m;
       if (math::length(hand_m) > 0.09f) step_m = hand_m * -0.01f;
       if (i % 500 == 0) drag.settings.budget.work = i % 1000 == 0 ? 640 : 40;
+      if (i % 7 == 0) drag.proxy.bend_per_m = bends[i / 7 % 5];
       drag.tick(hand_m);
     }
     CHECK_LT(4000u, drag.held);
     CHECK_EQ(drag.nearer, 0u);
     CHECK_EQ(drag.through, 0u);
     CHECK_EQ(drag.longer, 0u);
+  }
+}
+
+// A hand 6 mm behind the surface that goes 0.8 mm a tick: a plane leaves up to a third of the way.
+TEST(SplineProxy_FastHandBehindATorus_EndsWhereFrictionBearsThePull) {
+  for (const float friction : {0.0f, 0.1f, 0.3f}) {
+    Drag drag(friction);
+    uint32_t queries = 0, solved = 0, ticks = 0;
+    double most = 0, least = 1;
+    for (int i = 0; i < 2000; ++i) {
+      const double turn = 0.01 * i, tilt = 0.02 * i, deep_m = i < 100 ? 6e-5 * i - 1e-4 : 0.006;
+      const double away_m = 0.02 + wide(kRadius_m) - deep_m, out_m = 0.05 + away_m * std::cos(tilt);
+      const math::Vec3 hand_m =
+          tools::to_vec3({out_m * std::cos(turn), out_m * std::sin(turn), away_m * std::sin(tilt)});
+      const scene::ProxyMoved moved =
+          scene::move_proxy(drag.settings, hand_m, drag.shape, drag.proxy);
+      if (i < 200) continue;
+      ++ticks, queries += moved.queries, solved += moved.is_optimal;
+      const math::Vec3 at_m = drag.proxy.position_m;
+      const double radial_m = std::hypot(wide(at_m.x), wide(at_m.y)), in = 1 - 0.05 / radial_m;
+      const double x_m = wide(at_m.x) * in, y_m = wide(at_m.y) * in, z_m = wide(at_m.z);
+      const math::Vec3 pull_m = at_m - hand_m;
+      const double across_m = (wide(pull_m.x) * x_m + wide(pull_m.y) * y_m + wide(pull_m.z) * z_m) /
+                              std::hypot(x_m, y_m, z_m);
+      const double part = between_m(at_m, hand_m) / across_m;
+      const double ratio = std::sqrt(std::fmax(part * part - 1, 0));
+      most = std::fmax(most, ratio), least = std::fmin(least, ratio);
+    }
+    firmtouch::test::note("friction, percent", static_cast<uint32_t>(100 * friction + 0.5f));
+    CHECK_LE(most, 1.003 * wide(friction) + 0.003);
+    CHECK_LE(0.97 * wide(friction), least);
+    if (friction < 0.01f) continue;  // the last micrometre is the closest point's
+    CHECK_LE(0.95 * ticks, 1.0 * solved);
+    CHECK_LE(queries, 3 * ticks);
+  }
+}
+
+// A ball of 20 mm that a sheet cuts.
+struct CutBall {
+  scene::SphereTouched ball{{}, 0.02f};
+  float size_m() const { return 0.07f; }
+  scene::Near near(math::Vec3 x_m, query::Budget budget, float needed_m) const {
+    const scene::Near of_ball = ball.near(x_m, budget, needed_m);
+    const float off_m = std::fabs(x_m.x);
+    if (of_ball.distance_m < off_m) return of_ball;
+    scene::Near near;
+    near.lower_m = off_m * (1 - 1e-6f), near.distance_m = off_m;
+    near.outward = {x_m.x < 0 ? -1.0f : 1.0f, 0, 0};
+    near.is_exact = true;
+    near.feature.kind = scene::Feature::Kind::kBall;
+    near.feature.corner[0] = {0, x_m.y, x_m.z};
+    return near;
+  }
+};
+
+// The bend of the ball would lead over the sheet, to where the tool is clear again.
+TEST(SplineProxy_WayThatABendMakesLonger_CrossesNothing) {
+  for (uint32_t phase = 0; phase < 40; ++phase) {
+    const float step_m = 0.00015f + 0.000003f * static_cast<float>(phase);
+    scene::Proxy proxy;
+    scene::ProxySettings settings;
+    settings.radius_m = 0.0003f;
+    settings.friction_static = settings.friction_dynamic = 0.2f;
+    CutBall shape;
+    float most_m = -1;
+    for (uint32_t i = 0; i < 400; ++i) {
+      const float x_m = -0.01f + step_m * static_cast<float>(i);
+      const math::Vec3 hand_m{x_m < 0.01f ? x_m : 0.01f, 0, i < 4 ? 0.021f : 0.005f};
+      (void)scene::move_proxy(settings, hand_m, shape, proxy);
+      most_m = std::fmax(most_m, proxy.position_m.x);
+    }
+    CHECK_LE(most_m, -0.00029f);
+    CHECK_LE(-0.00031f, most_m);
   }
 }
 

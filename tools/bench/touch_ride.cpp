@@ -59,6 +59,14 @@ class Hand {
   double step_m_ = 0;
 };
 
+// A subject as a shape without free_part().
+struct Bent {
+  TouchSubject& subject;
+  scene::Near near(Vec3 x_m, query::Budget budget, float needed_m) const {
+    return subject.near(x_m, budget, needed_m);
+  }
+};
+
 struct Tool {
   TouchSubject& subject;
   scene::Proxy proxy;
@@ -77,6 +85,11 @@ struct Tool {
             subject.distance_m(tools::to_point(hand_m)) < wide(proxy.radius_m));
   }
 
+  scene::Near nearest(scene::ProxyMove& move) const {
+    Bent bent{subject};
+    return is_mesh(subject) ? scene::nearest_of(subject, move) : scene::nearest_of(bent, move);
+  }
+
   // Counts the moves of a certified proxy, and those that met the surface.
   void tick(Vec3 hand_m) {
     scene::ProxyMove move(settings, subject.size_m, hand_m, proxy);
@@ -93,7 +106,7 @@ struct Tool {
       note(was_free, from_m);
       if (!goes_on) break;
       const Vec3 before_m = proxy.position_m;
-      move.take(scene::nearest_of(subject, move));
+      move.take(nearest(move));
       note(was_free && is_free(), before_m);
     }
     moved = move.finish();

@@ -49,7 +49,8 @@ struct Proxy {
   float slid_m = 0;         // a tick, mean of the last ones
   bool is_growing = false;  // it began too near to a surface for its radius
   bool is_loaded = false;   // the last tick ended with the hand elsewhere
-  Nearness near;            // at the last query that certified it
+  Phase phase = Phase::kUnknown;
+  Nearness near;  // at the last query that certified it
   // While the side of the hand is unknown: a place of the hand and the free ball about it, in which
   // a search for the side began that has come to position_m.
   math::Vec3 searched_m;
@@ -61,7 +62,7 @@ struct Proxy {
   math::Vec3 planes_at_m;
   math::ActivePlanes active;  // in the last solution
   uint32_t feature_count = 0;
-  Phase phase = Phase::kUnknown;
+  float bend_per_m = 0;  // of the surface along the last way: see ProxyMove::bend()
 };
 
 /// Relative to the size of the shape: features that differ by less are the same.
@@ -109,10 +110,15 @@ class ProxyMove {
   Way way() const;
   query::Budget way_budget() const { return {work_left_ / kWayShare}; }
   void take_way(float free_part, uint32_t work);
+  /// On a surface that bends away: a longer way, to where the proxy would come to rest on it.
+  void bend();
+  /// What the surface bends by, of what a query there found.
+  void take_bend(math::Vec3 outward);
   void take(const Near& near);
   ProxyMoved finish();
 
  private:
+  math::Vec3 along_face(math::Vec3 way_m) const;
   void use_radius();
   void begin_contact(const Near& near);
   void begin_at_hand(int8_t sign);
@@ -144,26 +150,36 @@ class ProxyMove {
   Outlook outlook_;
   uint32_t taken_ = 0;  // bits of the planes that were taken where the proxy is
   float lag_m_ = 0;     // from there to the solution
+  // Of the face that alone holds the proxy; cosine to `outward` of the last query, 0: none does.
+  math::Vec3 face_normal_;
+  float face_cosine_ = 0;
+  float bend_per_m_ = 0;  // by the last query
   ProxyMoved moved_;
 };
 
-/// Searches the way; the second one is for shapes without free_part().
+/// The query that a move needs next, farther on if the shape proves the way there free. The second
+/// one is for shapes without free_part().
 template <class Shape>
-auto take_way_of(const Shape& shape, ProxyMove& move, int)
+auto nearest_of(Shape& shape, ProxyMove& move, int)
     -> decltype(shape.free_part(move.way(), move.way_budget(), *static_cast<uint32_t*>(nullptr)),
-                void()) {
-  uint32_t work = 0;
-  const float free_part = shape.free_part(move.way(), move.way_budget(), work);
-  move.take_way(free_part, work);
+                Near()) {
+  if (move.is_short()) {
+    uint32_t work = 0;
+    const float free_part = shape.free_part(move.way(), move.way_budget(), work);
+    move.take_way(free_part, work);
+  }
+  return shape.near(move.query_m(), move.budget(), move.needed_m());
 }
 template <class Shape>
-void take_way_of(const Shape&, ProxyMove&, long) {}
-
-/// The query that a move needs next, farther on if the shape proves the way there free.
+Near nearest_of(Shape& shape, ProxyMove& move, long) {
+  move.bend();
+  const Near near = shape.near(move.query_m(), move.budget(), move.needed_m());
+  move.take_bend(near.outward);
+  return near;
+}
 template <class Shape>
 Near nearest_of(Shape& shape, ProxyMove& move) {
-  if (move.is_short()) take_way_of(shape, move, 0);
-  return shape.near(move.query_m(), move.budget(), move.needed_m());
+  return nearest_of(shape, move, 0);
 }
 
 /// The settings with a radius of at least kMinBall.

@@ -6,6 +6,15 @@ namespace firmtouch::scene {
 
 using math::Vec3;
 
+namespace {
+// Of the way that a bend adds: a proxy with friction that went too far would stay there.
+constexpr float kBent = 0.9f;
+// Times the way along the face to the hand: twice as far is as far from it as the begin.
+constexpr float kPastHand = 1.9f;
+constexpr float kMeasured = 3e-4f;       // of the size: a bend is measured by no shorter way
+constexpr float kSameNormal = 0.99999f;  // cosine squared
+}  // namespace
+
 ProxySettings with_ball(const ProxySettings& settings, float size_m) {
   ProxySettings used = settings;
   used.radius_m = math::larger(settings.radius_m, kMinBall * size_m);
@@ -35,6 +44,49 @@ void ProxyMove::take_way(float free_part, uint32_t work) {
   const Vec3 end_m = proxy_.position_m + along_m_ * free_part;
   if (free_part * math::length(along_m_) > cap_ * proxy_.free_m && !is_longer(end_m))
     trial_m_ = end_m;
+}
+
+Vec3 ProxyMove::along_face(Vec3 way_m) const {
+  return way_m - face_normal_ * math::dot(way_m, face_normal_);
+}
+
+// Where nothing but the face that the last query found holds the proxy. The hand is `across_m`
+// behind it and `along_m` aside: if it turns by k a metre, then after s of a slide w - a s - b s^2
+// is left.
+void ProxyMove::bend() {
+  const uint32_t i = proxy_.active.plane[0];
+  face_cosine_ = 0.0f;
+  if (proxy_.phase != Proxy::Phase::kFree || moved_.is_optimal) return;
+  if (proxy_.active.count != 1 || i >= proxy_.feature_count) return;
+  face_normal_ = proxy_.plane[i].normal;
+  const float cosine = math::dot(proxy_.near.outward, face_normal_);
+  if (!(cosine * cosine > kSameNormal)) return;
+  face_cosine_ = cosine;
+  if (is_short_) return;
+  const Vec3 way_m = along_face(trial_m_ - proxy_.position_m);
+  const Vec3 hand_m = goal_m_ - proxy_.position_m;
+  const float across_m = -math::dot(hand_m, face_normal_),
+              along_m = math::length(along_face(hand_m));
+  const float k = moved_.queries == 0 ? proxy_.bend_per_m : bend_per_m_, mu = friction_.coulomb;
+  const float share = 1.0f - friction_.viscous_share;
+  const float a = 1.0f - share * k * (across_m + mu * along_m);
+  const float four_b_per_m = 2.0f * share * k * (k * along_m + mu * (1.0f - k * across_m));
+  const float w_m = math::length(way_m);
+  const float by = 2.0f / (a + math::square_root(a * a + four_b_per_m * w_m));
+  if (!(by > 1.0f)) return;
+  const float far = math::smaller(kBent * (by - 1.0f), kPastHand * along_m / w_m - 1.0f);
+  const Vec3 to_m = trial_m_ + way_m * far;
+  const float step_m = math::length(to_m - proxy_.position_m);
+  if (step_m <= cap_ * proxy_.free_m && !is_longer(to_m)) trial_m_ = to_m;
+}
+
+void ProxyMove::take_bend(Vec3 outward) {
+  const Vec3 way_m = along_face(trial_m_ - proxy_.position_m);
+  const float least_m = kMeasured * size_m_, way2_m2 = math::dot(way_m, way_m);
+  if (!(face_cosine_ * face_cosine_ > 0.0f) || !(way2_m2 > least_m * least_m)) return;
+  const float k = face_cosine_ * math::dot(outward, way_m) / way2_m2;
+  bend_per_m_ = k > 0.0f ? k : 0.0f;
+  if (moved_.queries == 0) proxy_.bend_per_m = bend_per_m_;
 }
 
 }  // namespace firmtouch::scene
