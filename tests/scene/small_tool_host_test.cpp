@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/pose_loss.hpp"
 #include "scene/hills_rig.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
@@ -99,4 +100,33 @@ TEST(SmallTool_RidgeLowerThanItsRadius_IsNotPassedOver) {
     move.finish();
   }
   CHECK_LT(100u, long_moves);
+}
+
+TEST(PlacedMesh_AnswersAsAPoseThatTurnsNothing) {
+  ProxyRig rig(hilly(40, hills));
+  scene::PlacedMesh placed;
+  placed.mesh = &rig.view;
+  mesh::Hint hint;
+  for (const Vec3 place_m : {Vec3{}, Vec3{0.1f, -0.02f, 0.3f}}) {
+    rig.object.pose.translation_m = placed.pose.translation_m = place_m;
+    const scene::MeshTouched posed{rig.object, rig.hint};
+    const scene::PlacedMeshTouched shape{placed, hint};
+    for (uint32_t tick = 0; tick < 400; ++tick) {
+      const Vec3 x_m = round_hand(tick, 1e-3, 0.002) + place_m;
+      scene::Way way;
+      way.from_m = x_m;
+      way.along_m = {0.01f, 0.002f, -0.003f};
+      const scene::Near a = posed.near(x_m, {}, 0.003f), b = shape.near(x_m, {}, 0.003f);
+      uint32_t work_a = 0, work_b = 0;
+      const float part_a = posed.free_part(way, {}, work_a),
+                  part_b = shape.free_part(way, {}, work_b);
+      CHECK_EQ(math::bits_of(a.lower_m), math::bits_of(b.lower_m));
+      CHECK_EQ(math::bits_of(a.distance_m), math::bits_of(b.distance_m));
+      CHECK_EQ(math::bits_of(part_a), math::bits_of(part_b));
+      CHECK_EQ(a.work + work_a, b.work + work_b);
+      for (uint32_t k = 0; k < 3; ++k)
+        CHECK(scene::is_same(a.feature.corner[k], b.feature.corner[k]));
+      CHECK(math::length(a.outward - b.outward) <= 0.0f && a.sign == b.sign);
+    }
+  }
 }

@@ -17,7 +17,8 @@ void report_texture(math::Vec3 proxy_m, ModelResult& result) {
 template <class... Others>
 void MaterialMeshWith<Others...>::touch(const ModelRequest& request, const params::Values& v,
                                         ModelResult& result) {
-  const scene::MaterialMeshObject object{Mesh::object(request, v), &materials()};
+  const scene::MaterialMeshObject object{Mesh::template object<scene::MeshObject>(request, v),
+                                         &materials()};
   scene::MeshTouchedWith<Mesh::kHasField, Mesh::kHasHull, scene::MaterialMeshObject> shape{
       object, this->hint_};
   SurfaceTouch& touch = this->touch_;

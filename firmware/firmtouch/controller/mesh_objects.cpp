@@ -15,9 +15,9 @@ struct MeshObjects::Shapes {
 
   float size_m() const { return of.size_m_; }
   scene::Near near(uint32_t i, math::Vec3 x_m, query::Budget budget, float needed_m) const {
-    scene::MeshObject object;
+    scene::PlacedMesh object;
     object.mesh = &of.mesh(i);
-    return scene::MeshTouched{object, of.hint_[i]}.near(x_m, budget, needed_m);
+    return scene::PlacedMeshTouched{object, of.hint_[i]}.near(x_m, budget, needed_m);
   }
   float free_part(uint32_t i, const scene::Way& way, query::Budget budget, uint32_t& work) const {
     const mesh::Sweep swept = mesh::sweep(of.mesh(i), way, budget);

@@ -7,16 +7,16 @@ namespace firmtouch {
 template <class... Others>
 void MeshWith<Others...>::touch(const ModelRequest& request, const params::Values& v,
                                 ModelResult& result) {
-  const scene::MeshObject touched = object(request, v);
-  touch_shape(scene::MeshTouchedWith<kHasField, kHasHull>{touched, hint_}, request, v, touch_,
-              result);
+  const auto touched = object<scene::PlacedMesh>(request, v);
+  touch_shape(scene::MeshTouchedWith<kHasField, kHasHull, scene::PlacedMesh>{touched, hint_},
+              request, v, touch_, result);
 }
 
 template <class... Others>
 void MeshWith<Others...>::touch_by_penalty(const ModelRequest& request, const params::Values& v,
                                            PenaltyTouch& touch, ModelResult& result) const {
   scene::touch_mesh<kHasField, kHasHull>(
-      object(request, v), v[params::kToolRadius], request.position_m,
+      object<scene::MeshObject>(request, v), v[params::kToolRadius], request.position_m,
       work_budget(v, params::kMeshWork, result), touch, result.model);
   report_surface(touch.closest.certificate, touch.closest.distance_m, touch.penetration_m, result);
   result.steps += touch.base_hull_steps;

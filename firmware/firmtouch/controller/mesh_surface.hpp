@@ -61,13 +61,14 @@ class MeshWith : public MeshContact, public LoaderChain<mesh::Loader, Others...>
                         PenaltyTouch& touch, ModelResult& result) const;
 
  protected:
-  scene::MeshObject object(const ModelRequest& request, const params::Values& values) const;
+  template <class Object>
+  Object object(const ModelRequest& request, const params::Values& values) const;
 };
 
 template <class... Others>
-scene::MeshObject MeshWith<Others...>::object(const ModelRequest& request,
-                                              const params::Values& v) const {
-  scene::MeshObject object;
+template <class Object>
+Object MeshWith<Others...>::object(const ModelRequest& request, const params::Values& v) const {
+  Object object;
   object.mesh = &mesh();
   object.pose.translation_m = scene_origin_m(request, v);
   object.material = {v[params::kContactStiffness], v[params::kContactDamping]};

@@ -10,12 +10,12 @@ namespace firmtouch {
 
 // The mesh as touch_by_tool() queries it.
 struct MeshTool::Shape {
-  const scene::MeshObject& object;
+  const scene::PlacedMesh& object;
   mesh::Hint (&hint)[scene::kMaxSpheres];
 
   float size_m() const { return object.mesh->head().diagonal_m; }
   scene::Near near(uint32_t sphere, math::Vec3 x_m, query::Budget budget, float needed_m) const {
-    return scene::MeshTouched{object, hint[sphere]}.near(x_m, budget, needed_m);
+    return scene::PlacedMeshTouched{object, hint[sphere]}.near(x_m, budget, needed_m);
   }
   float free_part(uint32_t, scene::Way way, query::Budget budget, uint32_t& work) const {
     return scene::free_part_of(object, way, budget, work);
@@ -52,7 +52,7 @@ void MeshTool::touch(const ModelRequest& request, const params::Values& values,
     origin_m_ = origin_m;
     scene::reset(touch_);
   }
-  scene::MeshObject object;
+  scene::PlacedMesh object;
   object.mesh = &mesh();
   object.pose.translation_m = origin_m;
   Shape shape{object, hint_};

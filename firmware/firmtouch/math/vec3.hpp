@@ -22,4 +22,9 @@ struct RigidTransform {
   Vec3 translation_m;
 };
 
+/// x -> x + translation_m: a RigidTransform that turns nothing, with the same bits.
+struct Translation {
+  Vec3 translation_m;
+};
+
 }  // namespace firmtouch::math

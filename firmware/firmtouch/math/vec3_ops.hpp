@@ -25,11 +25,29 @@ static inline Vec3 operator*(const Mat3& m, Vec3 v) {
 static inline Vec3 transposed_times(const Mat3& m, Vec3 v) {
   return m.row[0] * v.x + m.row[1] * v.y + m.row[2] * v.z;
 }
+[[gnu::always_inline]] static inline Vec3 turn(const RigidTransform& t, const Vec3& v) {
+  return t.rotation * v;
+}
+[[gnu::always_inline]] static inline Vec3 turn_back(const RigidTransform& t, const Vec3& v) {
+  return transposed_times(t.rotation, v);
+}
+[[gnu::always_inline]] static inline const Vec3& turn(const Translation&, const Vec3& v) {
+  return v;
+}
+[[gnu::always_inline]] static inline const Vec3& turn_back(const Translation&, const Vec3& v) {
+  return v;
+}
 static inline Vec3 apply(const RigidTransform& t, Vec3 point_m) {
   return t.rotation * point_m + t.translation_m;
 }
 static inline Vec3 apply_inverse(const RigidTransform& t, Vec3 point_m) {
   return transposed_times(t.rotation, point_m - t.translation_m);
+}
+[[gnu::always_inline]] static inline Vec3 apply(const Translation& t, const Vec3& point_m) {
+  return point_m + t.translation_m;
+}
+[[gnu::always_inline]] static inline Vec3 apply_inverse(const Translation& t, const Vec3& point_m) {
+  return point_m - t.translation_m;
 }
 
 /// True where all three are finite: the comparison fails on NaN.

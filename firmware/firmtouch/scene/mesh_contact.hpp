@@ -14,13 +14,17 @@ namespace firmtouch::scene {
 
 /// A mesh, its pose (mesh frame to device frame) and its material. Objects may share a mesh. The
 /// last two are read only where the arguments of touch_mesh() say so, and may be null or not open.
-struct MeshObject {
+template <class Pose>
+struct MeshWithPose {
   const mesh::View* mesh = nullptr;
-  math::RigidTransform pose;
+  Pose pose;
   Material material;
   const field::View* distance_field = nullptr;  // proven against the mesh
   const hull::BaseHull* base_hull = nullptr;    // encloses the mesh
 };
+using MeshObject = MeshWithPose<math::RigidTransform>;
+/// Of a mesh that nothing turns: the same bits in fewer instructions.
+using PlacedMesh = MeshWithPose<math::Translation>;
 
 /// State of a (tool, object) pair from tick to tick, and the result of its last query. The caller
 /// owns one a pair.

@@ -17,7 +17,8 @@ constexpr uint32_t kBaseHullWork = 1280;  // as of penalty contact
 // That an exact answer of a base hull is below the truth, in diagonals, and the clearance.
 constexpr float kBaseHullLoss = 4e-6f;
 
-void use_triangle(const MeshObject& object, uint32_t triangle, Feature& feature) {
+template <class Pose>
+void use_triangle(const MeshWithPose<Pose>& object, uint32_t triangle, Feature& feature) {
   const mesh::Triangle<uint32_t> corners = object.mesh->triangle(triangle);
   for (uint32_t k = 0; k < 3; ++k)
     feature.corner[k] = math::apply(object.pose, object.mesh->vertex(corners.corner[k]));
@@ -25,7 +26,8 @@ void use_triangle(const MeshObject& object, uint32_t triangle, Feature& feature)
 }
 
 // The base hull's answer where the mesh's is not enough: the mesh is behind it.
-void use_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, float needed_m,
+template <class Pose>
+void use_base_hull(const MeshWithPose<Pose>& object, Vec3 p_m, query::Budget budget, float needed_m,
                    float loss_m, Near& near) {
   if (near.is_exact || near.lower_m >= needed_m) return;
   if (object.base_hull == nullptr || !object.base_hull->is_open()) return;
@@ -50,16 +52,19 @@ void use_base_hull(const MeshObject& object, Vec3 p_m, query::Budget budget, flo
 
 }  // namespace
 
-float free_part_of(const MeshObject& object, Way& way, query::Budget budget, uint32_t& work) {
+template <class Pose>
+float free_part_of(const MeshWithPose<Pose>& object, Way& way, query::Budget budget,
+                   uint32_t& work) {
   way.radius_m += pose_loss_m(object.pose, way.from_m);
   way.from_m = math::apply_inverse(object.pose, way.from_m);
-  way.along_m = math::transposed_times(object.pose.rotation, way.along_m);
-  for (uint32_t k = 0; k < way.axes; ++k)
-    way.axis[k] = math::transposed_times(object.pose.rotation, way.axis[k]);
+  way.along_m = math::turn_back(object.pose, way.along_m);
+  for (uint32_t k = 0; k < way.axes; ++k) way.axis[k] = math::turn_back(object.pose, way.axis[k]);
   const mesh::Sweep swept = mesh::sweep(*object.mesh, way, budget);
   work += swept.work;
   return swept.free_part;
 }
+template float free_part_of(const MeshObject&, Way&, query::Budget, uint32_t&);
+template float free_part_of(const PlacedMesh&, Way&, query::Budget, uint32_t&);
 
 template <bool kHasField, bool kHasBaseHull, class Object>
 float MeshTouchedWith<kHasField, kHasBaseHull, Object>::size_m() const {
@@ -93,7 +98,7 @@ Near MeshTouchedWith<kHasField, kHasBaseHull, Object>::near(Vec3 x_m, query::Bud
   near.is_exact = certificate.exact;
   near.steps = certificate.steps;
   near.work = certificate.work;
-  near.outward = object.pose.rotation * closest.direction;
+  near.outward = math::turn(object.pose, closest.direction);
   // Beyond the band the point may be any of the surface.
   if (!is_far && (certificate.exact || near.distance_m <= budget.band_m)) {
     use_triangle(object, closest.triangle, near.feature);
@@ -105,9 +110,13 @@ Near MeshTouchedWith<kHasField, kHasBaseHull, Object>::near(Vec3 x_m, query::Bud
 }
 
 template struct MeshTouchedWith<false, false>;
+template struct MeshTouchedWith<false, false, PlacedMesh>;
 template struct MeshTouchedWith<true, false>;
+template struct MeshTouchedWith<true, false, PlacedMesh>;
 template struct MeshTouchedWith<false, true>;
+template struct MeshTouchedWith<false, true, PlacedMesh>;
 template struct MeshTouchedWith<true, true>;
+template struct MeshTouchedWith<true, true, PlacedMesh>;
 template struct MeshTouchedWith<false, false, MaterialMeshObject>;
 template struct MeshTouchedWith<true, false, MaterialMeshObject>;
 template struct MeshTouchedWith<false, true, MaterialMeshObject>;

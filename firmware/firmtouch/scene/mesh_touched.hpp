@@ -11,7 +11,11 @@ struct MaterialMeshObject : MeshObject {
 };
 
 /// Result: see Way, which comes into the mesh frame. `work`: units used are added.
-float free_part_of(const MeshObject& object, Way& way, query::Budget budget, uint32_t& work);
+template <class Pose>
+float free_part_of(const MeshWithPose<Pose>& object, Way& way, query::Budget budget,
+                   uint32_t& work);
+extern template float free_part_of(const MeshObject&, Way&, query::Budget, uint32_t&);
+extern template float free_part_of(const PlacedMesh&, Way&, query::Budget, uint32_t&);
 
 /// A mesh as a shape that a proxy touches. The distance field and the base hull of the object are
 /// read only where the arguments say so, its materials if it is a MaterialMeshObject. Where the
@@ -30,12 +34,17 @@ struct MeshTouchedWith {
 };
 
 using MeshTouched = MeshTouchedWith<false, false>;
+using PlacedMeshTouched = MeshTouchedWith<false, false, PlacedMesh>;
 using HulledMeshTouched = MeshTouchedWith<false, true>;
 
 extern template struct MeshTouchedWith<false, false>;
+extern template struct MeshTouchedWith<false, false, PlacedMesh>;
 extern template struct MeshTouchedWith<true, false>;
+extern template struct MeshTouchedWith<true, false, PlacedMesh>;
 extern template struct MeshTouchedWith<false, true>;
+extern template struct MeshTouchedWith<false, true, PlacedMesh>;
 extern template struct MeshTouchedWith<true, true>;
+extern template struct MeshTouchedWith<true, true, PlacedMesh>;
 extern template struct MeshTouchedWith<false, false, MaterialMeshObject>;
 extern template struct MeshTouchedWith<true, false, MaterialMeshObject>;
 extern template struct MeshTouchedWith<false, true, MaterialMeshObject>;

@@ -23,6 +23,11 @@ static inline float pose_loss_m(const math::RigidTransform& pose, math::Vec3 x_m
   return kPoseLoss * math::length(x_m - t_m);
 }
 
+static inline float pose_loss_m(const math::Translation& pose, math::Vec3 x_m) {
+  const math::Vec3 t_m = pose.translation_m;
+  return math::dot(t_m, t_m) <= 0.0f ? 0.0f : kPoseLoss * math::length(x_m - t_m);
+}
+
 /// Bit for bit.
 static inline bool is_same(math::Vec3 a, math::Vec3 b) {
   return math::bits_of(a.x) == math::bits_of(b.x) && math::bits_of(a.y) == math::bits_of(b.y) &&
