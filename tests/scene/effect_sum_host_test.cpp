@@ -331,3 +331,14 @@ TEST(EffectSum_VibrationBesideAGuide_HasItsForceAndTheGuideItsOwn) {
     CHECK_LE(size(servo::evaluate(model, at_m, {}) - guide_N - buzz.direction * buzz_N), 1e-6);
   }
 }
+
+TEST(Model_BegunInAnyBits_IsSoundAndEmpty) {
+  servo::LocalModel model;
+  memset(static_cast<void*>(&model), 0xFF, sizeof model);
+  scene::begin_model(model, {0.1f, 0.2f, 0.3f}, 7, 3);
+  CHECK(servo::is_sound(model));
+  CHECK(!model.spring.is_used && !model.spring.is_held && !model.is_uncertain &&
+        !model.is_squeezed);
+  CHECK_EQ(math::length(servo::evaluate(model, {0.2f, 0.1f, 0}, {1, 2, 3})), 0.0f);
+  CHECK_EQ(model.expires_tick, 10u);
+}

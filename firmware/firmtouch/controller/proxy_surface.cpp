@@ -6,20 +6,17 @@ namespace firmtouch {
 
 scene::ProxyContact proxy_contact(const ModelRequest& request, const params::Values& v,
                                   const ModelResult& result) {
-  scene::ProxyContact contact;
-  contact.settings.radius_m = v[params::kToolRadius];
-  contact.settings.friction_static = v[params::kFrictionStatic];
-  contact.settings.friction_dynamic = v[params::kFrictionDynamic];
-  contact.friction_speed_mps = v[params::kFrictionSpeed];
-  contact.friction_viscous_N_s_per_m = v[params::kFrictionViscous];
-  contact.settings.budget = work_budget(v, params::kMeshWork, result);
-  contact.material = {v[params::kContactStiffness], v[params::kContactDamping]};
-  contact.position_m = request.position_m;
-  contact.proxy_m = request.proxy_m;
-  contact.has_proxy = request.has_proxy;
-  contact.is_on = request.is_on;
-  contact.passed_s = v[params::kTickPeriod] * static_cast<float>(result.ticks);
-  return contact;
+  // Friction's slide and share and the growth follow from the rest: begin_proxy_contact().
+  return {{v[params::kToolRadius], v[params::kFrictionStatic], v[params::kFrictionDynamic], 0, 0, 0,
+           0, work_budget(v, params::kMeshWork, result)},
+          {v[params::kContactStiffness], v[params::kContactDamping]},
+          request.position_m,
+          request.proxy_m,
+          request.has_proxy,
+          request.is_on,
+          v[params::kTickPeriod] * static_cast<float>(result.ticks),
+          v[params::kFrictionSpeed],
+          v[params::kFrictionViscous]};
 }
 
 void use_origin(math::Vec3 origin_m, SurfaceTouch& touch) {

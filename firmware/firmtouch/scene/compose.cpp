@@ -24,10 +24,12 @@ uint32_t shallowest(const servo::LocalModel& model) {
 
 void begin_model(servo::LocalModel& model, math::Vec3 position_m, uint32_t tick,
                  uint32_t age_ticks) {
-  const uint32_t sequence = model.sequence + 1;
-  model = servo::LocalModel{};
+  // What is not used is not cleared.
+  model.plane_count = 0;
+  model.spring = {};
+  model.has_guide = model.is_uncertain = model.is_squeezed = false;
   model.made_at_m = position_m;
-  model.sequence = sequence;
+  ++model.sequence;
   model.made_tick = tick;
   model.expires_tick = tick + age_ticks;
 }
