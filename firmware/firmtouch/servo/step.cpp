@@ -110,8 +110,8 @@ Vec3 ramped_out(State& state, const Settings& settings) {
 // have left.
 // Result: the largest stretch of the spring.
 float move_spring(State& state, const EnergySettings& counted, const ProxySpring& spring,
-                  Vec3 before_m, Vec3 carried_m, bool is_late) {
-  const Vec3 position_m = state.position_m;
+                  const Vec3& before_m, const Vec3& carried_m, bool is_late) {
+  const Vec3& position_m = state.position_m;
   if (is_late) {
     const Vec3 last_m = position_m - state.move_m;
     state.energy.stretch_m = math::length(proxy_at(spring, last_m) - last_m);
@@ -126,8 +126,8 @@ float move_spring(State& state, const EnergySettings& counted, const ProxySpring
 
 // Counts the energy of the guide's last tick. `off_m`: of the tool, as far as the guide acts on it.
 // Result: the share of its spring that is paid for.
-float paid_share(State& state, const EnergySettings& counted, const LocalModel& model, Vec3 off_m,
-                 Vec3 before_m, bool is_new) {
+float paid_share(State& state, const EnergySettings& counted, const LocalModel& model,
+                 const Vec3& off_m, const Vec3& before_m, bool is_new) {
   Energy& energy = state.guide_energy;
   const float last_N_per_m = state.guide_N_per_m;
   const float stiffness = model.has_guide ? model.guide.stiffness_N_per_m : -1.0f;
@@ -165,7 +165,7 @@ float ramped_in(State& state, const Settings& settings) {
 }
 
 Vec3 rendered(State& state, const Settings& settings, const LocalModel& model,
-              const StepInput& input, float spring_m, Vec3 off_m, float guide_share) {
+              const StepInput& input, float spring_m, const Vec3& off_m, float guide_share) {
   const float share = ramped_in(state, settings);
   Vec3 other_N = planes_N(model, input.position_m, input.velocity_mps), guide_N;
   if (model.has_guide) {
