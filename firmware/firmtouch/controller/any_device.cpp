@@ -80,6 +80,7 @@ device::Reading AnyDevice::read(const Values& values, const device::Sample& samp
   reading.started = joints.started;
   reading.faults = joints.faults;
   if (!pose_.is_reachable) reading.faults |= device::kWorkspaceFault;
+  if (!joints.started) reading.faults = device::kEncoderFault;  // the angles are not measured yet
   const float speed_mps = math::length(reading.velocity_mps);
   fast_ticks_ = speed_mps <= values[params::kMaxSpeed] ? 0 : fast_ticks_ + 1;
   if (fast_ticks_ >= device::kBadInARow) {

@@ -128,6 +128,8 @@ class Controller {
     Push push = core_.step(tick, input.flags, output);
     if constexpr (Device::kHomes) push.may_push |= homes && core_.has_no_fault();
     const bool passed = device.push(core_.values(), push, core_.guard(), output);
+    if constexpr (Device::kHomes)
+      if (!passed) output.state &= ~record::kStateHoming;  // the guard has stopped the homing
     const uint32_t of_device = output.state;
     core_.end_tick(asset, tick, passed, output);
     if constexpr (SurfaceList::kHasTorque)
