@@ -10,66 +10,6 @@
 using namespace firmtouch;  // NOLINT: a test file
 using namespace controller_test;
 
-TEST(EachLineAndEachBrokenInputLatchesItsFaultInTime) {
-  struct Plan {
-    const char* name;
-    uint32_t fault, within_ticks;
-    void (*bend)(record::TickInput& input, uint32_t since);
-  };
-  const Plan plans[] = {
-      {"emergency stop", servo::kFaultEmergencyStop, 1,
-       [](record::TickInput& i, uint32_t since) {
-         if (since == 0) i.flags |= record::kFlagEmergencyStop;
-       }},
-      {"drive", servo::kFaultDrive, 1,
-       [](record::TickInput& i, uint32_t since) {
-         if (since == 0) i.flags |= record::kFlagDriveFault;
-       }},
-      {"encoder lost", servo::kFaultEncoder, 3,
-       [](record::TickInput& i, uint32_t) { i.flags |= record::kFlagEncoderFault; }},
-      {"encoder jump", servo::kFaultEncoder, 3,
-       [](record::TickInput& i, uint32_t since) {
-         i.encoder_counts[1] += since % 2 == 0 ? 200000 : -200000;
-       }},
-      {"clock stands", servo::kFaultClock, 4,
-       [](record::TickInput& i, uint32_t since) { i.clock_us -= 1000u * since; }},
-      {"clock set back", servo::kFaultClock, 1,
-       [](record::TickInput& i, uint32_t) { i.clock_us -= 50000u; }},
-      {"three late ticks", servo::kFaultDeadline, 3,
-       [](record::TickInput& i, uint32_t since) { i.clock_us += 1000u * (since + 1); }},
-      {"overload", servo::kFaultOverload, 3,
-       [](record::TickInput& i, uint32_t) { i.last_work_us = 950; }},
-      {"stall", servo::kFaultDeadline, 1,
-       [](record::TickInput& i, uint32_t) { i.clock_us += 5000u; }},
-      {"out of reach", servo::kFaultWorkspace, 120,
-       [](record::TickInput& i, uint32_t since) {
-         i.encoder_counts[0] += 450 * static_cast<int32_t>(since);
-       }},
-  };
-  for (const Plan& plan : plans) {
-    for (const uint32_t at : {300u, 517u, 801u, 1103u}) {
-      Ride ride;
-      ride.run(0, at);
-      CHECK_EQ(ride.output.faults, 0u);
-      uint32_t latched = UINT32_MAX;
-      for (uint32_t since = 0; since < 140; ++since) {
-        ride.fill(at + since);
-        plan.bend(ride.input, since);
-        ride.step();
-        CHECK(all_finite(ride.output));
-        CHECK_LE(size_of(ride.output.motor_N), 8.0);
-        if (ride.output.faults != 0 && latched == UINT32_MAX) latched = since;
-        if (latched != UINT32_MAX && since >= latched + 10)
-          CHECK_EQ(size_of(ride.output.motor_N), 0.0);
-      }
-      firmtouch::test::note(plan.name, at);
-      CHECK_LT(latched, plan.within_ticks);
-      CHECK_NE(ride.output.faults & plan.fault, 0u);
-      CHECK_EQ(ride.output.faults & servo::kFaultGuard, 0u);  // servo itself was enough
-    }
-  }
-}
-
 TEST(ClearedFaultsLetItGoOn) {
   Ride ride;
   ride.run(0, 400);

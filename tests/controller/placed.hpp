@@ -5,6 +5,7 @@
 
 #include "controller/ride.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/stored_objects.hpp"
 
 namespace firmtouch::controller_test {
 
@@ -27,6 +28,39 @@ inline std::vector<tools::Section> box_sections(const std::string& name) {
     surface.source.push_back(i);
   }
   return mesh_sections(surface, name);
+}
+
+// An object of an asset.
+struct Named {
+  const char *name, *mesh;
+  math::Vec3 at_m;
+  float stiffness_N_per_m = 1e30f;
+  math::Vec3 velocity_mps = {};
+  float friction = 0;
+};
+
+inline scene::ObjectLayout layout_of(const Named& named) {
+  scene::ObjectLayout layout = {};
+  std::strcpy(layout.name, named.name);
+  std::strcpy(layout.mesh, named.mesh);
+  layout.rotation[0] = layout.rotation[4] = layout.rotation[8] = 1;
+  const auto put = [](float(&to)[3], math::Vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; };
+  put(layout.at_m, named.at_m);
+  put(layout.velocity_mps, named.velocity_mps);
+  layout.stiffness_N_per_m = named.stiffness_N_per_m;
+  layout.friction_static = layout.friction_dynamic = named.friction;
+  return layout;
+}
+
+inline std::vector<uint8_t> scene_with(const std::vector<Named>& named,
+                                       const std::vector<std::string>& meshes = {"box"}) {
+  std::vector<tools::Section> sections;
+  for (const std::string& mesh : meshes)
+    for (tools::Section& section : box_sections(mesh)) sections.push_back(std::move(section));
+  std::vector<scene::ObjectLayout> objects;
+  for (const Named& one : named) objects.push_back(layout_of(one));
+  sections.push_back(tools::make_section(scene::kObjectsSection, "room", objects));
+  return file_of(std::move(sections));
 }
 
 // A controller whose tool is at a given place in each tick, counted in 10 um.
