@@ -360,6 +360,23 @@ TEST(Proxy_BeginsTooNearForItsRadius_GrowsWhereThereIsRoom) {
   CHECK_EQ(rig.proxy.radius_m, 0.003f);
 }
 
+TEST(Proxy_BeginsOnTheSurface_GrowsBesideIt) {
+  for (const float high_m : {0.0f, 2e-7f, -2e-7f, -4e-7f}) {
+    ProxyRig rig(two_walls());
+    Broken broken;
+    const Vec3 hand_m{-0.03f, 0.01f, high_m};
+    rig.tick(hand_m, broken);
+    CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
+    CHECK(!rig.moved.is_starved);
+    CHECK_LE(wide(rig.proxy.position_m.z), 2e-6);
+    rig.settings.growth_m = 5e-6f;
+    for (int tick = 0; tick < 700; ++tick) rig.tick(hand_m, broken);
+    CHECK_GE(rig.proxy.radius_m, 0.0029f);
+    CHECK_GE(rig.proxy.position_m.z, 0.0029f);
+    CHECK_EQ(broken.crossings, 0u);
+  }
+}
+
 TEST(Proxy_BeginsInside_IsNotFree) {
   ProxyRig rig(two_walls());
   Broken broken;

@@ -121,7 +121,7 @@ class ProxyMove {
   math::Vec3 along_face(math::Vec3 way_m) const;
   void use_radius();
   void begin_contact(const Near& near);
-  void begin_at_hand(int8_t sign);
+  void begin_at(math::Vec3 place_m, int8_t sign);
   void drop_base_hull();
   void drop(uint32_t i);
   void begin_planes();
@@ -146,6 +146,7 @@ class ProxyMove {
   bool is_over_ = false, is_short_ = false;
   uint8_t again_left_ = 5;     // solutions of a tick because planes were taken elsewhere
   bool is_searching_ = false;  // for the side of the hand, from where another tick has come
+  bool is_beside_ = false;     // the hand is on the surface: it begins beside it
   uint32_t work_left_;
   Outlook outlook_;
   uint32_t taken_ = 0;  // bits of the planes that were taken where the proxy is

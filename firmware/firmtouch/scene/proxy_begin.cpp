@@ -9,6 +9,8 @@ using math::Vec3;
 
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
+constexpr float kBeside =
+    2.0f * kMinRadius;  // of the size: of a proxy whose hand is on the surface
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
 
 // The way round a crease, beside which exact answers give no side: to the normal of a face that
@@ -38,16 +40,23 @@ Bounds bounds_of(const Proxy& proxy, Vec3 hand_m) {
 // Where the side of the hand is not known, the search goes on from ball to ball towards the
 // surface, where it needs fewer visits, in the next tick if it must: in free balls that overlap all
 // has one side. It goes aside, too: on the axis of a turned part the triangles of a whole ring are
-// equally near, all the way.
+// equally near, all the way. A hand on the surface has no side: the proxy begins beside it.
 void ProxyMove::begin_contact(const Near& near) {
   is_over_ = true;
   if (!is_searching_) {
     proxy_.near = near;
-    proxy_.searched_m = goal_m_;
+    proxy_.searched_m = trial_m_;
     proxy_.searched_free_m = near.lower_m;
+    if (!is_beside_ && near.is_exact && near.distance_m < kMinRadius * size_m_) {
+      is_beside_ = true;
+      trial_m_ = goal_m_ + near.outward * (kBeside * size_m_);
+      is_over_ = work_left_ == 0;
+      moved_.is_starved = is_over_;
+      return;
+    }
   }
   if (!near.has_inside || near.sign != 0) {
-    begin_at_hand(near.sign);
+    begin_at(is_searching_ ? goal_m_ : trial_m_, near.sign);
     proxy_.feature_count = 0;
     if (!is_searching_) keep(near.feature);
     return;
@@ -67,9 +76,9 @@ void ProxyMove::begin_contact(const Near& near) {
   is_over_ = !is_searching_;
 }
 
-void ProxyMove::begin_at_hand(int8_t sign) {
-  const float moved_m = math::length(goal_m_ - proxy_.searched_m);
-  proxy_.position_m = begin_m_ = goal_m_;
+void ProxyMove::begin_at(Vec3 place_m, int8_t sign) {
+  const float moved_m = math::length(place_m - proxy_.searched_m);
+  proxy_.position_m = begin_m_ = place_m;
   proxy_.free_m = proxy_.searched_free_m - moved_m * kLengthUp;
   proxy_.near.lower_m = proxy_.free_m;
   proxy_.near.distance_m = proxy_.near.distance_m + moved_m;
