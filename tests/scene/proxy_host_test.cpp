@@ -323,69 +323,6 @@ TEST(Proxy_LastQueryWithinTheClearance_IsTaken) {
   }
 }
 
-// On its axis a turned part is equally near all around: the side was never found, and contact was
-// a fault. The bounds were those of the place where the search began.
-TEST(Proxy_BeginsOnTheAxisOfATurnedPart_FindsItsSideWhileTheHandMoves) {
-  for (const uint32_t work : {12u, 640u}) {
-    ProxyRig rig(drum(0.03f, 0.02f, 400));
-    rig.settings.budget.work = work;
-    Broken broken;
-    uint32_t unknown = 0, wrong = 0;
-    for (int tick = 0; tick < 100; ++tick) {
-      const Vec3 hand_m = kDrumAxis * static_cast<float>(0.08 - 0.0005 * tick);
-      rig.tick(hand_m, broken);
-      const bool is_free = rig.proxy.phase == scene::Proxy::Phase::kFree;
-      unknown += is_free ? 0 : 1;
-      const double truth_m = rig.truth_m(is_free ? rig.proxy.position_m : hand_m);
-      const scene::Bounds bounds = scene::bounds_of(rig.proxy, hand_m);
-      if (wide(bounds.lower_m) > truth_m + 1e-7 || wide(bounds.upper_m) < truth_m - 1e-7) ++wrong;
-    }
-    CHECK_EQ(wrong, 0u);
-    CHECK_EQ(broken.crossings, 0u);
-    if (work == 640) CHECK_LE(unknown, 4u);
-  }
-}
-
-TEST(Proxy_BeginsTooNearForItsRadius_GrowsWhereThereIsRoom) {
-  ProxyRig rig(two_walls());
-  Broken broken;
-  rig.tick({-0.03f, 0, 0.001f}, broken);
-  CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
-  CHECK_LE(rig.proxy.radius_m, 0.001f);
-  rig.settings.growth_m = 5e-6f;
-  for (int tick = 0; tick < 500; ++tick) rig.tick({-0.03f, 0, 0.001f}, broken);
-  CHECK_GE(rig.proxy.radius_m, 0.0029f);
-  CHECK_GE(rig.proxy.position_m.z, 0.0029f);
-  rig.tick({-0.03f, 0, 0.01f}, broken);
-  CHECK_EQ(rig.proxy.radius_m, 0.003f);
-}
-
-TEST(Proxy_BeginsOnTheSurface_GrowsBesideIt) {
-  for (const float high_m : {0.0f, 2e-7f, -2e-7f, -4e-7f}) {
-    ProxyRig rig(two_walls());
-    Broken broken;
-    const Vec3 hand_m{-0.03f, 0.01f, high_m};
-    rig.tick(hand_m, broken);
-    CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
-    CHECK(!rig.moved.is_starved);
-    CHECK_LE(wide(rig.proxy.position_m.z), 2e-6);
-    rig.settings.growth_m = 5e-6f;
-    for (int tick = 0; tick < 700; ++tick) rig.tick(hand_m, broken);
-    CHECK_GE(rig.proxy.radius_m, 0.0029f);
-    CHECK_GE(rig.proxy.position_m.z, 0.0029f);
-    CHECK_EQ(broken.crossings, 0u);
-  }
-}
-
-TEST(Proxy_BeginsInside_IsNotFree) {
-  ProxyRig rig(two_walls());
-  Broken broken;
-  rig.tick({0.01f, 0, 0.01f}, broken);
-  CHECK(rig.proxy.phase == scene::Proxy::Phase::kInside);
-  rig.tick({-0.01f, 0, 0.01f}, broken);
-  CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
-}
-
 // Closed forms: where a proxy rests on each shape.
 TEST(Proxy_AnalyticShapes_RestOnThem) {
   scene::ProxySettings settings;
