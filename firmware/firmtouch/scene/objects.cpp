@@ -50,6 +50,7 @@ ObjectsTick::ObjectsTick(const ProxyContact& contact, const ObjectSet& set, floa
   }
   was_loaded_ = proxy_.is_loaded;
   settings_ = begin_proxy_contact(contact_, touch_.touch);
+  leave_out_air();
   was_ = {frame, proxy_.position_m, math::apply(pose, proxy_.position_m), 0.0f};
   if (proxy_.phase == Proxy::Phase::kFree) {
     make_bounds(place_in(frame, proxy_.position_m), base_);

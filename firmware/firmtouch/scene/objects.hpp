@@ -117,6 +117,7 @@ class ObjectsTick {
   void make_bounds(const Place& place, Bounds& bounds) const;
   Place carried_by(uint32_t i) const;
   bool has_moved(uint32_t i) const { return (moved_ >> i & 1u) != 0; }
+  void leave_out_air();
   bool renew(const Bounds& bounds);
   void keep(float lower_m);
   void enter(const Place& place);
@@ -189,10 +190,6 @@ struct NearestObject {
   float size_m() const { return shapes.size_m(); }
 };
 
-/// Before a tick: objects without stiffness are left out of it. One that gains or loses its
-/// stiffness does so without load.
-void leave_out_air(const ObjectSet& set, const Proxy& proxy);
-
 /// Contact of a sphere with several objects, as touch_by_proxy() with one. Friction is the larger
 /// of that in `contact` and of the object that is touched; their stiffnesses are in series. A far
 /// object, or one without stiffness, costs a comparison. Objects that leave the proxy less than 0.9
@@ -203,7 +200,6 @@ void leave_out_air(const ObjectSet& set, const Proxy& proxy);
 template <class Shapes>
 void touch_objects(const ProxyContact& contact, const ObjectSet& set, Shapes& shapes,
                    ObjectsTouch& touch, servo::LocalModel& model) {
-  leave_out_air(set, touch.touch.proxy);
   ObjectsTick tick(contact, set, shapes.size_m(), touch);
   while (tick.carry()) {
     const ObjectQuery& q = tick.query();

@@ -20,12 +20,13 @@ constexpr float kAsNear = 1e-6f;  // of the size of the scene
 
 }  // namespace
 
-// A ball without end about an object of air, so that it is never the nearest.
-void leave_out_air(const ObjectSet& set, const Proxy& proxy) {
-  if (proxy.is_loaded) return;
-  for (uint32_t i = 0; i < set.count; ++i) {
-    ObjectPair& pair = set.pair[i];
-    const bool is_air = !(set.object[i].stiffness_N_per_m > 0.0f);
+// A ball without end about an object without stiffness, so that it is never the nearest. One that
+// gains or loses its stiffness does so without load.
+void ObjectsTick::leave_out_air() {
+  if (proxy_.is_loaded) return;
+  for (uint32_t i = 0; i < set_.count; ++i) {
+    ObjectPair& pair = set_.pair[i];
+    const bool is_air = !(set_.object[i].stiffness_N_per_m > 0.0f);
     if (is_air == (pair.lower_m >= FLT_MAX)) continue;
     pair.lower_m = pair.left_m = is_air ? FLT_MAX : 0.0f;
     pair.sign = 1;  // also of a solid: without a bound it is queried

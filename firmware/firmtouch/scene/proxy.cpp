@@ -330,7 +330,7 @@ void ProxyMove::take(const Near& near) {
 ProxyMoved ProxyMove::finish() {
   const Vec3 off_m = goal_m_ - proxy_.position_m;
   const float off2_m2 = math::dot(off_m, off_m);
-  proxy_.is_loaded = !(off2_m2 <= 0.0f) && !is_beside_;
+  proxy_.is_loaded = !(off2_m2 <= 0.0f);
   // A proxy that lags by no more than twice what it moved follows the hand: the next tick goes on.
   const float moved_m = math::length(proxy_.position_m - begin_m_);
   proxy_.slid_m += (moved_m - proxy_.slid_m) * settings_.slide_share;
