@@ -1,5 +1,6 @@
 // How contact begins: the side of the hand, and hands that are too near to a surface.
 #include "firmtouch/math/vec3_ops.hpp"
+#include "firmtouch/scene/analytic.hpp"
 #include "scene/proxy_rig.hpp"
 
 using namespace firmtouch;  // NOLINT: a test file
@@ -61,6 +62,47 @@ TEST(Proxy_BeginsOnTheSurface_GrowsBesideIt) {
     for (int tick = 0; tick < 700; ++tick) rig.tick(hand_m, broken);
     CHECK_GE(rig.proxy.radius_m, 0.0029f);
     CHECK_GE(rig.proxy.position_m.z, 0.0029f);
+    CHECK_EQ(broken.crossings, 0u);
+  }
+}
+
+// No hand about the surface is left without a side, on whichever shape.
+template <class Shape>
+void begin_about(Shape shape, Vec3 out) {
+  for (int i = -16; i <= 16; ++i) {
+    const float off_m = 5e-7f * static_cast<float>(i) * shape.size_m();
+    const Vec3 hand_m = out * (0.02f + off_m);
+    scene::Proxy proxy;
+    scene::ProxySettings settings;
+    settings.radius_m = 0.003f;
+    const scene::ProxyMoved moved = scene::move_proxy(settings, hand_m, shape, proxy);
+    firmtouch::test::note("place", static_cast<uint32_t>(i + 100));
+    CHECK(!moved.is_starved);
+    CHECK(proxy.phase == (i < -8 ? scene::Proxy::Phase::kInside : scene::Proxy::Phase::kFree) ||
+          i == -8 || i == -9);
+  }
+}
+
+TEST(Proxy_BeginsAboutTheSurface_HasASide) {
+  begin_about(scene::SphereTouched{{}, 0.02f}, {0.36f, 0.48f, 0.8f});
+  begin_about(scene::PlaneTouched{{0, 0, 0.02f}, {0, 0, 1}, 0.1f}, {0, 0, 1});
+  begin_about(scene::BoxTouched{{}, {0.02f, 0.03f, 0.04f}}, {1, 0, 0});
+}
+
+// A hand a little behind a sheet is not held by it on its way back.
+TEST(Proxy_BeginsBehindASheet_StaysBehindIt) {
+  tools::Surface sheet;
+  sheet.vertices = {{-0.05f, -0.05f, 0}, {0.05f, -0.05f, 0}, {0.05f, 0.05f, 0}, {-0.05f, 0.05f, 0}};
+  sheet.faces = {{0, 1, 2}, {0, 2, 3}};
+  sheet.source = {0, 1};
+  for (const float side : {1.0f, -1.0f}) {
+    ProxyRig rig(sheet, false);
+    Broken broken;
+    rig.tick({0.01f, 0.02f, 2e-7f * side}, broken);
+    CHECK(rig.proxy.phase == scene::Proxy::Phase::kFree);
+    for (int tick = 1; tick <= 100; ++tick)
+      rig.tick({0.01f, 0.02f, 1e-4f * static_cast<float>(tick) * side}, broken);
+    CHECK_LE(wide(rig.proxy.position_m.z * -side), -0.0099);
     CHECK_EQ(broken.crossings, 0u);
   }
 }

@@ -154,6 +154,30 @@ TEST(SplineProxy_WayThatABendMakesLonger_CrossesNothing) {
   }
 }
 
+// The normal that a query finds is off by rounding: on a flat face that is no bend.
+TEST(SplineProxy_FastHandBehindAFlatFace_FollowsIt) {
+  const Surface surface = sheet();
+  scene::SplineObject object;
+  object.surface = &surface.view;
+  spline::Hint hint;
+  scene::SplineTouched shape{object, hint};
+  scene::Proxy proxy;
+  scene::ProxySettings settings;
+  settings.radius_m = kRadius_m;
+  settings.budget.work = 640;
+  uint32_t queries = 0, solved = 0;
+  for (int i = 0; i < 2200; ++i) {
+    const double high_m = i < 200 ? 0.005 - 2e-5 * i : 0.001, turn = 0.025 * i;
+    const math::Vec3 hand_m =
+        tools::to_vec3({0.02 * std::cos(turn), 0.02 * std::sin(turn), high_m});
+    const scene::ProxyMoved moved = scene::move_proxy(settings, hand_m, shape, proxy);
+    if (i < 200) continue;
+    queries += moved.queries, solved += moved.is_optimal;
+  }
+  CHECK_LE(queries, 2600u);
+  CHECK_LE(1900u, solved);
+}
+
 TEST(SplineProxy_HostileHands_StaysFiniteAndOutside) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               most = std::numeric_limits<float>::max();

@@ -9,8 +9,8 @@ using math::Vec3;
 
 // Parts of a free radius by which the search for the side goes on: together within it.
 constexpr float kTowards = 0.7f;
-constexpr float kBeside =
-    2.0f * kMinRadius;  // of the size: of a proxy whose hand is on the surface
+// Of the size, from a hand on the surface: free by kMinRadius from where it is not as near.
+constexpr float kBeside = 2.6f * kMinRadius;
 constexpr Vec3 kAside{0.07f, 0.14f, -0.11f};
 
 // The way round a crease, beside which exact answers give no side: to the normal of a face that
@@ -47,9 +47,13 @@ void ProxyMove::begin_contact(const Near& near) {
     proxy_.near = near;
     proxy_.searched_m = trial_m_;
     proxy_.searched_free_m = near.lower_m;
-    if (!is_beside_ && near.is_exact && near.distance_m < kMinRadius * size_m_) {
+    const float size2 = math::dot(near.outward, near.outward);
+    const bool is_unit = size2 >= 0.98f && size2 <= 1.02f;
+    if (!is_beside_ && near.is_exact && is_unit && near.lower_m < kMinRadius * size_m_) {
       is_beside_ = true;
-      trial_m_ = goal_m_ + near.outward * (kBeside * size_m_);
+      const Vec3 off = tangent_at(near.feature, goal_m_, {}).normal;  // 0: it is on the surface
+      const bool is_behind = !near.has_inside && math::dot(off, near.outward) < 0.0f;
+      trial_m_ = goal_m_ + near.outward * (is_behind ? -kBeside * size_m_ : kBeside * size_m_);
       is_over_ = work_left_ == 0;
       moved_.is_starved = is_over_;
       return;

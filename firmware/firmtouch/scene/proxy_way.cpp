@@ -81,10 +81,10 @@ void ProxyMove::bend() {
 }
 
 void ProxyMove::take_bend(Vec3 outward) {
-  const Vec3 way_m = along_face(trial_m_ - proxy_.position_m);
+  const Vec3 way_m = along_face(trial_m_ - proxy_.position_m), from = proxy_.near.outward;
   const float least_m = kMeasured * size_m_, way2_m2 = math::dot(way_m, way_m);
-  if (!(face_cosine_ * face_cosine_ > 0.0f) || !(way2_m2 > least_m * least_m)) return;
-  const float k = face_cosine_ * math::dot(outward, way_m) / way2_m2;
+  if (!(way2_m2 > least_m * least_m)) return;
+  const float k = face_cosine_ * math::dot(outward - from, way_m) / way2_m2;
   bend_per_m_ = k > 0.0f ? k : 0.0f;
   if (moved_.queries == 0) proxy_.bend_per_m = bend_per_m_;
 }
