@@ -93,12 +93,12 @@ Followed follow(const View& curve, Vec3 p_m, const Hold& hold, query::Budget bud
   Followed followed;
   const ArcPenalty penalty{hold.weight_m, following.arc, following.is_following};
   // A quarter is for the way along the curve.
-  const bool counts = is_penalty(penalty);
-  const uint32_t search = counts ? budget.work - budget.work / 4 : budget.work;
+  const bool has_penalty = is_penalty(penalty);
+  const uint32_t search = has_penalty ? budget.work - budget.work / 4 : budget.work;
   const query::Budget first{search > 1 ? search - 1 : 1, budget.band_m};
   followed.constraint = guided_point(curve, p_m, penalty, first, following.hint);
   followed.closest = followed.constraint.closest;
-  if (counts) {
+  if (has_penalty) {
     // One unit is for the search where it lets go.
     const uint32_t used = followed.closest.certificate.work + 1;
     slide(curve, p_m, penalty, budget.work > used ? budget.work - used : 0, followed.closest,

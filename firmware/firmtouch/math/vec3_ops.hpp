@@ -18,6 +18,11 @@ static inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 static inline float length(Vec3 a) { return square_root(dot(a, a)); }
+/// Whether its length is 1 to a hundredth; false with NaN.
+static inline bool is_about_unit(Vec3 a) {
+  const float square = dot(a, a);
+  return square >= 0.98f && square <= 1.02f;
+}
 
 static inline Vec3 operator*(const Mat3& m, Vec3 v) {
   return {dot(m.row[0], v), dot(m.row[1], v), dot(m.row[2], v)};

@@ -50,8 +50,7 @@ bool add_guide(servo::LocalModel& model, const servo::GuideLine& guide) {
 float add_contact(servo::LocalModel& model, math::Vec3 position_m, float radius_m,
                   const SurfacePoint& surface, const Material& material) {
   if (surface.sign == 0) return 0.0f;
-  const float size2 = math::dot(surface.normal, surface.normal);
-  if (!(size2 >= 0.98f) || !(size2 <= 1.02f)) return 0.0f;
+  if (!math::is_about_unit(surface.normal)) return 0.0f;
   const float depth_m = radius_m - surface.distance_m;
   servo::ContactPlane plane;
   plane.normal = surface.normal;

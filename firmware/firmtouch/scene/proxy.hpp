@@ -62,7 +62,7 @@ struct Proxy {
   math::Vec3 planes_at_m;
   math::ActivePlanes active;  // in the last solution
   uint32_t feature_count = 0;
-  float bend_per_m = 0;  // of the surface along the last way: see ProxyMove::bend()
+  float bend_per_m = 0;  // radians that the surface turned by along the last way: bend()
 };
 
 /// Relative to the size of the shape: features that differ by less are the same.
@@ -110,9 +110,10 @@ class ProxyMove {
   Way way() const;
   query::Budget way_budget() const { return {work_left_ / kWayShare}; }
   void take_way(float free_part, uint32_t work);
-  /// On a surface that bends away: a longer way, to where the proxy would come to rest on it.
+  /// Makes the way longer on a surface that bends away from its plane: to where the slide would
+  /// end.
   void bend();
-  /// What the surface bends by, of what a query there found.
+  /// Measures the bend by the normal that the query at query_m() found.
   void take_bend(math::Vec3 outward);
   void take(const Near& near);
   ProxyMoved finish();

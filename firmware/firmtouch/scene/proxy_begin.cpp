@@ -47,9 +47,8 @@ void ProxyMove::begin_contact(const Near& near) {
     proxy_.near = near;
     proxy_.searched_m = trial_m_;
     proxy_.searched_free_m = near.lower_m;
-    const float size2 = math::dot(near.outward, near.outward);
-    const bool is_unit = size2 >= 0.98f && size2 <= 1.02f;
-    if (!is_beside_ && near.is_exact && is_unit && near.lower_m < kMinRadius * size_m_) {
+    if (!is_beside_ && near.is_exact && near.lower_m < kMinRadius * size_m_ &&
+        math::is_about_unit(near.outward)) {
       is_beside_ = true;
       const Vec3 off = tangent_at(near.feature, goal_m_, {}).normal;  // 0: it is on the surface
       const bool is_behind = !near.has_inside && math::dot(off, near.outward) < 0.0f;

@@ -37,8 +37,7 @@ void lead_out(const ProxyContact& contact, float was_m, ProxyTouch& touch,
     model.is_uncertain = true;
     return;
   }
-  const float size2 = math::dot(near.outward, near.outward);
-  if (near.sign == 0 || !(size2 >= 0.98f && size2 <= 1.02f)) return;
+  if (near.sign == 0 || !math::is_about_unit(near.outward)) return;
   const float rise = touch.inside_s < kLeadOutRise_s ? touch.inside_s / kLeadOutRise_s : 1.0f;
   const float depth_m = near.distance_m, out_m = math::larger(was_m - depth_m, 0.0f);
   float push_N = math::smaller(touch.material.stiffness_N_per_m * depth_m, kLeadOut_N);

@@ -11,7 +11,7 @@ namespace {
 constexpr float kBent = 0.9f;
 // Times the way along the face to the hand: twice as far is as far from it as the begin.
 constexpr float kPastHand = 1.9f;
-constexpr float kMeasured = 3e-4f;       // of the size: a bend is measured by no shorter way
+constexpr float kMeasured = 3e-4f;       // of the size: no shorter way measures a bend
 constexpr float kSameNormal = 0.99999f;  // cosine squared
 }  // namespace
 
@@ -50,9 +50,9 @@ Vec3 ProxyMove::along_face(Vec3 way_m) const {
   return way_m - face_normal_ * math::dot(way_m, face_normal_);
 }
 
-// Where nothing but the face that the last query found holds the proxy. The hand is `across_m`
-// behind it and `along_m` aside: if it turns by k a metre, then after s of a slide w - a s - b s^2
-// is left.
+// Only where nothing holds the proxy but the face that the last query found. The hand is `across_m`
+// behind that face and `along_m` aside. If the face turns by k radians a metre, a slide of w is
+// w - a s - b s^2 after s of it: it ends at the root, `by` times w.
 void ProxyMove::bend() {
   const uint32_t i = proxy_.active.plane[0];
   face_cosine_ = 0.0f;
@@ -74,8 +74,8 @@ void ProxyMove::bend() {
   const float w_m = math::length(way_m);
   const float by = 2.0f / (a + math::square_root(a * a + four_b_per_m * w_m));
   if (!(by > 1.0f)) return;
-  const float far = math::smaller(kBent * (by - 1.0f), kPastHand * along_m / w_m - 1.0f);
-  const Vec3 to_m = trial_m_ + way_m * far;
+  const float more = math::smaller(kBent * (by - 1.0f), kPastHand * along_m / w_m - 1.0f);
+  const Vec3 to_m = trial_m_ + way_m * more;
   const float step_m = math::length(to_m - proxy_.position_m);
   if (step_m <= cap_ * proxy_.free_m && !is_longer(to_m)) trial_m_ = to_m;
 }

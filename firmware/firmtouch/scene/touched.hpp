@@ -40,8 +40,10 @@ struct Feature {
 struct Nearness {
   float lower_m = 0;     // certified: no point of the shape is nearer
   float distance_m = 0;  // of the feature, an upper bound; without a feature of any point
-  math::Vec3 outward;    // unit normal at the feature, for a tool that begins inside
-  int8_t sign = 0;       // +1 outside, -1 inside, 0 unknown, or the shape has no inside
+  // Unit normal at the feature: for tools that begin on the surface or inside, and for how it
+  // bends.
+  math::Vec3 outward;
+  int8_t sign = 0;  // +1 outside, -1 inside, 0 unknown, or the shape has no inside
   bool has_inside = false;
   bool is_exact = false;  // as query::Certificate::exact
   bool is_of_base_hull = false;
