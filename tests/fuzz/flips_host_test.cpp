@@ -83,7 +83,7 @@ TEST(Victim_HasEverySectionType_AndRuns) {
   for (uint32_t i = 0; i < container.section_count(); ++i) types.insert(container.type(i));
   for (uint32_t type = asset::kBoundsSection; type <= asset::kOriginSection; ++type)
     CHECK_EQ(types.count(type), 1u);
-  for (uint32_t type = mesh::kHeadSection; type <= mesh::kShapesSection; ++type)
+  for (uint32_t type = mesh::kHeadSection; type <= mesh::kLeafBoxesSection; ++type)
     CHECK_EQ(
         types.count(type),
         type == 0x1008u || type == 0x100Cu || type == 0x100Du ? 0u : 1u);  // of earlier layouts

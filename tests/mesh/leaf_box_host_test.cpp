@@ -127,7 +127,7 @@ TEST(LeafBoxBound_IsAtMostTheTrueDistance) {
 static uint32_t beyond_where_boxes_change_nothing(const BakedMesh& baked) {
   mesh::Sections parts = baked.parts();
   CHECK(!parts.leaf_boxes.empty());
-  parts.leaf_boxes = parts.shapes = {};
+  parts.leaf_boxes = {};
   mesh::View without;
   CHECK(mesh::open(parts, without).ok());
   uint32_t differ = 0, beyond = 0;

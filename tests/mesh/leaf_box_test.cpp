@@ -1,8 +1,6 @@
-// Boxes of leaves and shapes of triangles: the reject rules, each condition tripped alone, and a
-// cube's answers.
+// Boxes of leaves: the reject rules, each condition tripped alone, and a cube's answers.
 #include "firmtouch/mesh/leaf_box.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 #include "refusal.hpp"
 
 namespace {
@@ -19,17 +17,8 @@ struct BoxedCube {
   static constexpr uint32_t kWords = mesh::kLeafBoxStride * Cube::kTriangles + mesh::kLeafBoxesEnd;
   Cube cube;
   uint32_t words[kWords] = {};
-  mesh::TriangleShape shapes[Cube::kTriangles];
 
   BoxedCube() {
-    for (uint32_t t = 0; t < Cube::kTriangles; ++t) {
-      math::Vec3 corners[3];
-      for (uint32_t k = 0; k < 3; ++k) {
-        const mesh::Vertex& v = cube.vertices[cube.triangles[t].corner[k]];
-        corners[k] = {v.x_m, v.y_m, v.z_m};
-      }
-      shapes[t] = mesh::shape_of(corners[0], corners[1], corners[2]);
-    }
     for (uint32_t leaf = 0; leaf < kLeaves; ++leaf) put_box(leaf);
     words[kWords - mesh::kLeafBoxesEnd] = mesh::kNoLeafBox;
     words[kWords - mesh::kLeafBoxesEnd + 1] = mesh::kNoLeafBox;
@@ -44,7 +33,6 @@ struct BoxedCube {
   mesh::Sections sections() const {
     mesh::Sections s = cube.sections();
     s.leaf_boxes = {reinterpret_cast<const uint8_t*>(words), sizeof words};
-    s.shapes = {reinterpret_cast<const uint8_t*>(shapes), sizeof shapes};
     return s;
   }
 
@@ -232,27 +220,4 @@ TEST(R139BoxSoFarOffThatItsLeafIsBeyondTheReach) {
   cube.box(0)[0] = 0xFFFFFFFFu;
   cube.box(0)[1] = 0xFFFFFFFFu;
   CHECK_EQ(refusal_of(cube.sections()) / 1000, 139u);
-}
-
-TEST(R140ShapesNotThereWithTheBoxesOrNotOfThisMesh) {
-  const BoxedCube cube;
-  mesh::Sections s = cube.sections();
-  s.leaf_boxes = {};
-  CHECK_EQ(refusal_of(s), 140'000u);
-  const uint32_t cuts[] = {1, 4, 48, sizeof cube.shapes};
-  for (const uint32_t cut : cuts) {
-    s = cube.sections();
-    s.shapes = shorter(s.shapes, cut);
-    CHECK_EQ(refusal_of(s), 140'000u);
-  }
-}
-
-TEST(R141ShapeThatIsNotOfItsCorners) {
-  for (uint32_t t = 0; t < Cube::kTriangles; ++t)
-    for (uint32_t k = 0; k < mesh::kShapeFloats; ++k) {
-      BoxedCube cube;
-      uint8_t* const float_k = reinterpret_cast<uint8_t*>(&cube.shapes[t]) + k * sizeof(float);
-      *float_k ^= 1u;
-      CHECK_EQ(refusal_of(cube.sections()), 141'000u + t);
-    }
 }

@@ -1,5 +1,4 @@
-// Triangles of a leaf: excluding some that are certainly farther, or using stored shapes, changes
-// no bit.
+// Triangles of a leaf: excluding some that are certainly farther changes no bit.
 #include "firmtouch/mesh/leaf.hpp"
 
 #include "harness/test.hpp"
@@ -16,9 +15,9 @@ struct Compared {
 
 }  // namespace
 
-// All triangles, and without those that are certainly farther, from one bound; by corners and by
-// shapes.
-TEST(ExcludedTrianglesAndShapes_ChangeNoBitOfALeaf) {
+// All triangles, and without those that are certainly farther, from one bound; with indices of a
+// known width and of either.
+TEST(ExcludedTriangles_ChangeNoBitOfALeaf) {
   Compared compared;
   for (uint32_t turn = 0; turn < 20000; ++turn) {
     const Leaf leaf(turn);
@@ -32,22 +31,19 @@ TEST(ExcludedTrianglesAndShapes_ChangeNoBitOfALeaf) {
     mesh::Sought nearer = all;
     const uint32_t count = 1 + turn % 7;
     const uint32_t child = mesh::make_leaf(random_bits() % (kTriangles - count + 1), count);
-    mesh::Sought by_shapes = all, nearer_by_shapes = all;
-    mesh::TriangleShape shapes[kTriangles];
-    for (uint32_t t = 0; t < kTriangles; ++t) shapes[t] = shape_at(leaf, t);
-    by_shapes.shapes = nearer_by_shapes.shapes = shapes;
+    mesh::Sought of_any_width = all, nearer_of_any_width = all;
     mesh::Triangle<uint32_t> wide[kTriangles];
     for (uint32_t t = 0; t < kTriangles; ++t)
       for (uint32_t k = 0; k < 3; ++k) wide[t].corner[k] = leaf.triangles[t].corner[k];
-    by_shapes.is_narrow = nearer_by_shapes.is_narrow = turn % 2 == 0;
-    if (turn % 2 != 0) by_shapes.triangles = nearer_by_shapes.triangles = wide;
+    of_any_width.is_narrow = nearer_of_any_width.is_narrow = turn % 2 == 0;
+    if (turn % 2 != 0) of_any_width.triangles = nearer_of_any_width.triangles = wide;
     mesh::measure_triangles<mesh::LeafCorners<uint16_t>, mesh::Everything>(child, 5, all);
     mesh::measure_triangles<mesh::LeafCorners<uint16_t>, mesh::Nearer>(child, 5, nearer);
-    mesh::measure_triangles<mesh::LeafShapes, mesh::Everything>(child, 5, by_shapes);
-    mesh::measure_triangles<mesh::LeafShapes, mesh::Nearer>(child, 5, nearer_by_shapes);
+    mesh::measure_triangles<mesh::LeafTriangles, mesh::Everything>(child, 5, of_any_width);
+    mesh::measure_triangles<mesh::LeafTriangles, mesh::Nearer>(child, 5, nearer_of_any_width);
     compared.differ += same(all.best, nearer.best) ? 0u : 1u;
-    compared.differ += same(all.best, by_shapes.best) ? 0u : 1u;
-    compared.differ += same(all.best, nearer_by_shapes.best) ? 0u : 1u;
+    compared.differ += same(all.best, of_any_width.best) ? 0u : 1u;
+    compared.differ += same(all.best, nearer_of_any_width.best) ? 0u : 1u;
     compared.improved += all.best.slot == 5 ? 1u : 0u;
   }
   CHECK_EQ(compared.differ, 0u);

@@ -4,7 +4,6 @@
 #include <stdint.h>
 
 #include "firmtouch/mesh/leaf.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::mesh_test {
 
@@ -55,9 +54,6 @@ inline mesh::Foot closest_on(const Leaf& leaf, uint32_t i) {
                                    corner(leaf, i, 2));
 }
 
-inline mesh::TriangleShape shape_at(const Leaf& leaf, uint32_t i) {
-  return mesh::shape_of(corner(leaf, i, 0), corner(leaf, i, 1), corner(leaf, i, 2));
-}
 inline float longest_edge_m(const Leaf& leaf) {
   float longest_m = 0;
   for (uint32_t i = 0; i < kTriangles; ++i)

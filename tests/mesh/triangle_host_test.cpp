@@ -3,7 +3,6 @@
 
 #include "brute_force.hpp"
 #include "firmtouch/mesh/leaf.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 #include "harness/test.hpp"
 #include "true_distance.hpp"
 
@@ -52,31 +51,8 @@ struct LeftOut {
   uint32_t wrongly = 0, at_twice = 0;
 };
 
-// A triangle as its shape is stored.
-struct Stored {
-  mesh::Vertex vertices[3];
-  uint16_t corners[3] = {0, 1, 2};
-  mesh::TriangleShape shape;
-  mesh::Sought sought;
-
-  explicit Stored(const Turned& t)
-      : vertices{{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}},
-        shape(mesh::shape_of(t.a, t.b, t.c)) {
-    sought.vertices = vertices;
-    sought.triangles = corners;
-    sought.shapes = &shape;
-    sought.is_narrow = true;
-  }
-  mesh::OfShape read() const {
-    mesh::OfShape from{};
-    mesh::LeafShapes(sought, 0).next(from);
-    return from;
-  }
-};
-
 // Triangles of length `size` or less, beside one of length `longest`, and points up to `reach` off.
-LeftOut leave_out(float size, double height, double reach, float longest, uint64_t seed,
-                  bool is_stored) {
+LeftOut leave_out(float size, double height, double reach, float longest, uint64_t seed) {
   Random random(seed);
   LeftOut left_out;
   const float slack_m2 = mesh::Nearer::slack_m2(longest);
@@ -98,8 +74,7 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
     const float ulp_nearer = std::nextafter(reported.distance2_m2, INFINITY);
     const auto is_left_out = [&](float min2_m2) {
       const mesh::Nearer nearer = mesh::Nearer::than(min2_m2, slack_m2);
-      return is_stored ? !mesh::find_foot(p, Stored(t).read(), nearer, foot)
-                       : !mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, nearer, foot);
+      return !mesh::find_foot(p, mesh::OfCorners{t.a, t.b, t.c}, nearer, foot);
     };
     left_out.wrongly += is_left_out(ulp_nearer) ? 1u : 0u;
     left_out.at_twice += is_left_out(0.25f * reported.distance2_m2) ? 1u : 0u;
@@ -113,20 +88,15 @@ LeftOut leave_out(float size, double height, double reach, float longest, uint64
 TEST(NoTriangleThatIsAnUlpNearerIsLeftOut) {
   for (const float size : {1e-12f, 1e-11f, 1e-10f, 1e-9f, 1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f, 1e9f})
     for (const double height : {0.8, 1e-2, 1e-4, 1e-6, 1e-8, 0.0})
-      for (const double reach : {1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3})
-        for (const bool is_stored : {false, true}) {
-          test::note("height 1e-", static_cast<int64_t>(-std::log10(height + 1e-9)));
-          const LeftOut left_out = leave_out(size, height, reach, size, 11, is_stored);
-          CHECK_EQ(left_out.wrongly, 0u);
-        }
+      for (const double reach : {1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3}) {
+        test::note("height 1e-", static_cast<int64_t>(-std::log10(height + 1e-9)));
+        CHECK_EQ(leave_out(size, height, reach, size, 11).wrongly, 0u);
+      }
 }
 
 TEST(MostTrianglesTwiceAsFarAreLeftOut) {
   for (const double reach : {1.0, 3.0, 10.0})
-    for (const bool is_stored : {false, true}) {
-      const LeftOut left_out = leave_out(0.01f, 0.8, reach, 0.02f, 12, is_stored);
-      CHECK_LT(3000u, left_out.at_twice);  // of 4,000
-    }
+    CHECK_LT(3000u, leave_out(0.01f, 0.8, reach, 0.02f, 12).at_twice);  // of 4,000
 }
 
 TEST(SliversLoseNoMoreThanWellShapedTriangles) {

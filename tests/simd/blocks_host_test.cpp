@@ -31,7 +31,7 @@ struct Rows {
       simd::put_prism(a, b, c, prism);
       put(prism, i, block, prisms);
       float shape[simd::kShapeArrays];
-      mesh::put_floats(shape_at(leaf, i), shape);
+      simd::put_floats(simd::shape_of(a, b, c), shape);
       put(shape, i, block, shapes);
     }
     tree.corners = corners;

@@ -4,7 +4,6 @@
 #include "../mesh/cube.hpp"
 #include "bake/mesh/bake_mesh.hpp"
 #include "firmtouch/mesh/closest_point.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 #include "harness/long.hpp"
 #include "harness/test.hpp"
 #include "simd/prism.hpp"
@@ -192,7 +191,7 @@ TEST(EveryTriangle_IsStoredWhereItsLeafSays) {
       const math::Vec3 corner[] = {baked.view.vertex(t.corner[0]), baked.view.vertex(t.corner[1]),
                                    baked.view.vertex(t.corner[2])};
       float shape[simd::kShapeArrays];
-      mesh::put_floats(mesh::shape_of(corner[0], corner[1], corner[2]), shape);
+      simd::put_floats(simd::shape_of(corner[0], corner[1], corner[2]), shape);
       for (uint32_t row = 0; row < simd::kCornerArrays; ++row) {
         const math::Vec3& c = corner[row / 3];
         const float value = row % 3 == 0 ? c.x : row % 3 == 1 ? c.y : c.z;

@@ -148,7 +148,7 @@ std::string line_of_materials(const tools::MeshReport& report, const tools::Mate
 bool is_of_tree(uint32_t type) {
   return type == mesh::kNodesSection || type == mesh::kParentsSection ||
          type == mesh::kVertexNormalsSection || type == mesh::kEdgeFoldsSection ||
-         type == mesh::kLeafBoxesSection || type == mesh::kShapesSection;
+         type == mesh::kLeafBoxesSection;
 }
 
 const tools::TreeShape& tree_for(Purpose purpose) {

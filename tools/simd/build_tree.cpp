@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "firmtouch/mesh/direction.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 #include "simd/prism.hpp"
+#include "simd/triangle_shape.hpp"
 
 namespace firmtouch::simd {
 namespace {
@@ -128,7 +128,7 @@ struct OwnedTree::Arrays {
       const float of_corners[kCornerArrays] = {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
       put_in_arrays(of_corners, i, block, corners);
       float of_shape[kShapeArrays];
-      mesh::put_floats(mesh::shape_of(a, b, c), of_shape);
+      put_floats(shape_of(a, b, c), of_shape);
       put_in_arrays(of_shape, i, block, shapes);
       float of_prism[kPrismArrays];
       put_prism(a, b, c, of_prism);

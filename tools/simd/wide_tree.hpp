@@ -17,7 +17,6 @@ using mesh::Vertex;
 
 constexpr uint32_t kLanes = 8;
 constexpr uint32_t kCornerArrays = 9;
-constexpr uint32_t kShapeArrays = sizeof(mesh::TriangleShape) / sizeof(float);
 constexpr uint32_t kPrismArrays = 16;
 constexpr uint32_t kFeatures = 7;
 

@@ -14,14 +14,13 @@ struct ScalarFinder {
   bool find(const Bound& bound, Search& search) const {
     if constexpr (kCompensated)
       return search_nearest<true, Bound, void>(mesh, bound, search);
-    else if (mesh.has_rivals())
+    else if (mesh.has_rivals() || mesh.triangles16().empty())
+      // 32 bits are rare on a controller: a loop of their own takes 3 kB
       return search_nearest<false, Bound, WithRivals>(mesh, bound, search);
     else if (mesh.leaf_boxes() != nullptr)
       return search_nearest<false, Bound, Boxed>(mesh, bound, search);
-    else if (!mesh.triangles16().empty())
+    else
       return search_nearest<false, Bound, uint16_t>(mesh, bound, search);
-    else  // rare on a controller: a loop of their own takes 3 kB
-      return search_nearest<false, Bound, WithRivals>(mesh, bound, search);
   }
   [[gnu::always_inline]] inline Vec3 direction(const Best& best) const {
     return feature_direction(mesh, best.triangle, best.feature);

@@ -28,8 +28,6 @@ constexpr uint32_t kEdgeFoldsSection = 0x100B;
 // of each leaf of two triangles or more an oriented box, eight words at word 4 * first triangle
 // (math::oriented_distance2(), tools/FORMAT.md).
 constexpr uint32_t kLeafBoxesSection = 0x100E;
-// There where the boxes are: TriangleShape[triangle_count].
-constexpr uint32_t kShapesSection = 0x100F;
 // BoxFrame; only where the boxes are turned against the axes.
 constexpr uint32_t kBoxFrameSection = 0x1010;
 
@@ -96,16 +94,6 @@ struct Triangle {
   Index corner[3];
 };
 static_assert(sizeof(Triangle<uint16_t>) == 6 && sizeof(Triangle<uint32_t>) == 12);
-
-/// What a measurement takes from a triangle a b c alone (mesh/triangle.hpp): corner a, b - a, the
-/// height vector from the line a b to c, 1 / |ab|^2, the part of ab at which c stands, |h|^2.
-struct TriangleShape {
-  Vertex a_m, ab_m, h_m;
-  float per_ab2_m2;
-  float xc;
-  float h2_m2;
-};
-static_assert(sizeof(TriangleShape) == 48);
 
 /// One side of an inner node: the box of a child, box[k] = low | (32767 - high) << 16, and where
 /// the child is.
@@ -225,10 +213,6 @@ enum Rule : uint16_t {
   // A triangle is not inside its leaf box, or more than 32,766 half cells from its centre on an
   // axis.
   kRuleTriangleOutsideLeafBox = 139,
-  // There are not 48 bytes of shapes a triangle exactly if there are leaf boxes.
-  kRuleShapesSize = 140,
-  // A shape does not have the bits that its corners give.
-  kRuleShape = 141,
 };
 
 }  // namespace firmtouch::mesh

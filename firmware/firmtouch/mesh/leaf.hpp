@@ -96,36 +96,8 @@ struct Sought {
   Best best;               // in: no farther than this; out: the nearest
   const Vertex* vertices;  // the mesh's; here, where a leaf finds them by one pointer
   const void* triangles;   // with indices of its width
-  // For LeafShapes alone:
-  const TriangleShape* shapes;
-  bool is_narrow;  // the indices have 16 bits
+  bool is_narrow;          // the indices have 16 bits; for LeafTriangles alone
   Rivals rivals;
-};
-
-/// A triangle whose shape is stored (mesh/layout.hpp, kShapesSection). Corners b and c are rarely
-/// needed.
-struct OfShape {
-  math::Vec3 a_m, ab_m, h_m;
-  float per_ab2_m2;
-  const TriangleShape* shape;
-  const Sought* sought;
-
-  math::Vec3 corner(size_t k) const {
-    const size_t at = static_cast<size_t>(shape - sought->shapes) * 3 + k;
-    const Vertex& v =
-        sought->vertices[sought->is_narrow ? static_cast<const uint16_t*>(sought->triangles)[at]
-                                           : static_cast<const uint32_t*>(sought->triangles)[at]];
-    return {v.x_m, v.y_m, v.z_m};
-  }
-  math::Vec3 b() const { return corner(1); }
-  math::Vec3 c() const { return corner(2); }
-  math::Vec3 ab() const { return ab_m; }
-  math::Vec3 ac() const { return c() - a_m; }
-  math::Vec3 across() const { return h_m; }
-  float per_ab2(math::Vec3) const { return per_ab2_m2; }
-  float xc(math::Vec3, float) const { return shape->xc; }
-  math::Vec3 h(math::Vec3, float) const { return h_m; }
-  float h2(math::Vec3) const { return shape->h2_m2; }
 };
 
 // The triangles of a leaf by their corners.
@@ -163,23 +135,6 @@ struct LeafTriangles {
     load_corner<0>(sought->vertices, index[0], stride, shape.a_m);
     load_corner<1>(sought->vertices, index[1], stride, shape.b_m);
     load_corner<2>(sought->vertices, index[2], stride, shape.c_m);
-  }
-};
-
-// The same by their stored shapes, with indices of either width.
-struct LeafShapes {
-  using Shape = OfShape;
-  const Sought* sought;
-  const TriangleShape* at;
-
-  LeafShapes(const Sought& from, uint32_t first) : sought(&from), at(from.shapes + first) {}
-  [[gnu::always_inline]] void next(OfShape& shape) {
-    math::load_floats<0>(&at->a_m.x_m, shape.a_m.x, shape.a_m.y, shape.a_m.z);
-    math::load_floats<1>(&at->ab_m.x_m, shape.ab_m.x, shape.ab_m.y, shape.ab_m.z);
-    math::load_floats<2>(&at->h_m.x_m, shape.h_m.x, shape.h_m.y, shape.h_m.z);
-    shape.per_ab2_m2 = at->per_ab2_m2;
-    shape.shape = at++;
-    shape.sought = sought;
   }
 };
 

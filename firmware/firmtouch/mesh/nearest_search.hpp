@@ -56,8 +56,8 @@ inline uint32_t units_of(uint32_t parts, uint32_t allowed) {
   return units < allowed ? units : allowed;
 }
 
-// Instead of an index type: each leaf has an oriented box, which is tested before its triangles,
-// and these are measured by their stored shapes.
+// Instead of an index type: indices of 16 bits, and each leaf has an oriented box, which is tested
+// before its triangles.
 struct Boxed {};
 // Instead of an index type: a mesh that has rivals (View::has_rivals()), or indices of 32 bits,
 // with oriented boxes or without.
@@ -134,15 +134,6 @@ inline bool ascend(const View& mesh, const Side* sides, const Bound& bound, uint
   return false;
 }
 
-template <class Kind>
-struct Triangles {
-  using Source = LeafCorners<Kind>;
-};
-template <>
-struct Triangles<Boxed> {
-  using Source = LeafShapes;
-};
-
 template <class Index>
 inline core::Span<const Triangle<Index>> triangles_of(const View& mesh) {
   if constexpr (sizeof(Index) == sizeof(uint16_t))
@@ -157,7 +148,6 @@ inline void begin_leaves(const View& mesh, [[maybe_unused]] const Bound& bound, 
   if constexpr (kIsBoxed<Index> || kHasRivals<Index>) {
     search.half_cells = bound.half_cells();
     search.leaf_boxes = mesh.leaf_boxes();
-    search.shapes = mesh.shapes();
     search.vertices = mesh.vertices().data();
     search.is_narrow = !mesh.triangles16().empty();
     search.triangles = search.is_narrow ? static_cast<const void*>(mesh.triangles16().data())
@@ -203,10 +193,10 @@ enum class Which { kLast, kBeside };
   return best.slot ^ slot;
 }
 // `prune`, which it does not need, is in the register in which measure_boxed() has it.
-template <class Source, class Wanted>
+template <class Wanted>
 [[gnu::noinline]] uint32_t measure_plain([[maybe_unused]] uint32_t prune, uint32_t child,
                                          uint32_t slot, Search& search) {
-  measure_triangles<Source, Wanted>(child, slot, search);
+  measure_triangles<LeafCorners<uint16_t>, Wanted>(child, slot, search);
   return search.best.slot ^ slot;
 }
 // Whether the box of a leaf excludes all of its triangles.
@@ -231,8 +221,7 @@ template <class Source, class Wanted>
 [[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t slot,
                                          Search& search) {
   if (prune != 0 && is_beyond(prune, child, search)) return 1;
-  measure_triangles<LeafShapes, Nearer>(child, slot, search);
-  return search.best.slot ^ slot;
+  return measure_plain<Nearer>(prune, child, slot, search);
 }
 
 // `prune`: the lowest key that is not visited; 0 at the last leaf. Result: whether a triangle was
@@ -250,8 +239,7 @@ inline bool measure(const View& mesh, [[maybe_unused]] uint32_t prune, uint32_t 
   } else if constexpr (kIsBoxed<Index>) {
     return measure_boxed(prune, child, slot, search) == 0;
   } else {
-    return measure_plain<typename Triangles<Index>::Source, Wanted>(prune, child, slot, search) ==
-           0;
+    return measure_plain<Wanted>(prune, child, slot, search) == 0;
   }
 }
 

@@ -6,7 +6,6 @@
 #include "firmtouch/mesh/box_frame.hpp"
 #include "firmtouch/mesh/leaf_box.hpp"
 #include "firmtouch/mesh/loss.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 
 namespace firmtouch::mesh {
 namespace {
@@ -76,13 +75,6 @@ bool is_thin_measured(Vec3 ab, Vec3 ac, float ab2) {
 [[gnu::always_inline]] inline bool is_thin(Vec3 ab, Vec3 ac, float ab2) {
   const Vec3 normal = cross(ab, ac);
   return !(dot(normal, normal) > 1e-8f * ab2 * ab2) && is_thin_measured(ab, ac, ab2);
-}
-
-// The bits that a search would compute.
-[[gnu::noinline]] bool has_shape(const TriangleShape& stored, const Vertex& a, const Vertex& b,
-                                 const Vertex& c) {
-  const TriangleShape shape = shape_of(position_of(a), position_of(b), position_of(c));
-  return __builtin_memcmp(&shape, &stored, sizeof shape) == 0;
 }
 
 using Stage = query::StageOf<Proof>;
@@ -173,12 +165,12 @@ Verdict Proof::take(const Sections& s) {
   const core::Span<const BoxFrame> frames = core::as_whole_array<BoxFrame>(s.box_frame);
   if (frames.size() != (s.box_frame.empty() ? 0 : 1)) return reject(kRuleHeadSize, 0);
   view.box_frame_ = frames.data();
-  return take_bounded(s);
+  return take_leaf_boxes(s);
 }
 
 // The box that a search reads behind the last leaf's excludes nothing.
-Verdict Proof::take_bounded(const Sections& s) {
-  if (s.leaf_boxes.empty()) return s.shapes.empty() ? kPassed : reject(kRuleShapesSize, 0);
+Verdict Proof::take_leaf_boxes(const Sections& s) {
+  if (s.leaf_boxes.empty()) return kPassed;
   const uint32_t triangles = view.triangles16_.size() + view.triangles32_.size();
   const uint32_t words = kLeafBoxStride * triangles;
   const core::Span<const uint32_t> boxes = core::as_whole_array<uint32_t>(s.leaf_boxes);
@@ -186,10 +178,7 @@ Verdict Proof::take_bounded(const Sections& s) {
   if (!excludes_nothing(boxes.data() + words)) return reject(kRuleLeafBoxesSize, 1);
   for (uint32_t i = 2; i < kLeafBoxesEnd; ++i)
     if (boxes[words + i] != 0) return reject(kRuleLeafBoxesSize, 1);
-  const core::Span<const TriangleShape> shapes = core::as_whole_array<TriangleShape>(s.shapes);
-  if (shapes.size() != triangles) return reject(kRuleShapesSize, 0);
   view.leaf_boxes_ = boxes.data();
-  view.shapes_ = shapes.data();
   return kPassed;
 }
 
@@ -258,7 +247,6 @@ Verdict Proof::finish_nodes() {
   if (!(ab2 >= 1e-24f && ab2 >= dot(bc, bc) && ab2 >= dot(ac, ac))) return kRuleLongestEdgeFirst;
   if (!(math::square_root(ab2) <= view.head_->longest_edge_m)) return kRuleEdgeAboveLongest;
   if (is_thin(ab, ac, ab2)) return kRuleThinTriangle;
-  if (view.shapes_ != nullptr && !has_shape(view.shapes_[i], a, b, c)) return kRuleShape;
   Vec3 at_a_m = position_of(a), at_b_m = position_of(b), at_c_m = position_of(c);
   if (view.box_frame_ != nullptr) {
     at_a_m = on_grid(view, 3 * i);

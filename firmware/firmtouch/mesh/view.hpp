@@ -16,11 +16,11 @@ struct Extents;
 namespace firmtouch::mesh {
 
 /// The bytes of a mesh's sections, as the container hands them out. One of triangles16 and
-/// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes and shapes except
-/// for a bounded bake, box_frame except for boxes turned against the axes.
+/// triangles32; the normals and folds are empty for an unsigned mesh, leaf_boxes except for a
+/// bounded bake, box_frame except for boxes turned against the axes.
 struct Sections {
   core::Bytes head, vertices, triangles16, triangles32, nodes, parents, vertex_normals, edge_folds,
-      leaf_boxes, shapes, box_frame;
+      leaf_boxes, box_frame;
 
   /// Calls take(section type, bytes) for each.
   template <class Take>
@@ -29,8 +29,7 @@ struct Sections {
         take(kTriangles16Section, triangles16), take(kTriangles32Section, triangles32),
         take(kNodesSection, nodes), take(kParentsSection, parents),
         take(kVertexNormalsSection, vertex_normals), take(kEdgeFoldsSection, edge_folds),
-        take(kLeafBoxesSection, leaf_boxes), take(kShapesSection, shapes),
-        take(kBoxFrameSection, box_frame);
+        take(kLeafBoxesSection, leaf_boxes), take(kBoxFrameSection, box_frame);
   }
 };
 
@@ -48,7 +47,6 @@ class View : public query::HeadedView<Head, Sections> {
   core::Span<const EdgeFolds> folds() const { return folds_; }
   /// Null where the asset has none: what they hold follows from the rest.
   const uint32_t* leaf_boxes() const { return leaf_boxes_; }
-  const TriangleShape* shapes() const { return shapes_; }
   /// Null where the boxes lie along the axes.
   const BoxFrame* box_frame() const { return box_frame_; }
   /// Whether float32 alone cannot keep the promise of exact answers (mesh/loss.hpp): the search
@@ -79,12 +77,11 @@ class View : public query::HeadedView<Head, Sections> {
   core::Span<const uint32_t> vertex_normals_;
   core::Span<const EdgeFolds> folds_;
   const uint32_t* leaf_boxes_ = nullptr;
-  const TriangleShape* shapes_ = nullptr;
   const BoxFrame* box_frame_ = nullptr;
   bool has_rivals_ = false;
 };
 
-/// What Opening proves of a mesh: rules R101 to R141 of tools/FORMAT.md.
+/// What Opening proves of a mesh: rules R101 to R139 of tools/FORMAT.md.
 class Proof {
  public:
   static const query::CheckStage kStages[4];
@@ -93,7 +90,7 @@ class Proof {
   View view;
 
  private:
-  core::Verdict take_bounded(const Sections& sections);
+  core::Verdict take_leaf_boxes(const Sections& sections);
   core::Verdict check_grid(float reach_m, float extent_m) const;
   uint32_t vertex_count() const { return view.vertices_.size(); }
   // Whose triangles take half the instructions of others: without boxes of leaves and turned boxes.

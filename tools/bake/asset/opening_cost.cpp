@@ -18,12 +18,11 @@ struct Rate {
   double per_byte;  // of its proof, or of what is proven with it
 };
 constexpr Rate kRates[] = {
-    {mesh::kTriangles16Section, 23},  {mesh::kTriangles32Section, 11.5},
-    {mesh::kNodesSection, 7.9},       {mesh::kLeafBoxesSection, 17},
-    {mesh::kShapesSection, 17},       {mesh::kProbesSection, 640},
-    {hull::kStarBoxesSection, 333},   {hull::kBaseHullSection, 138},
-    {hull::kProbesSection, 1980},     {spline::kProbesSection, 400},
-    {field::kDistancesSection, 2200},
+    {mesh::kTriangles16Section, 23}, {mesh::kTriangles32Section, 11.5},
+    {mesh::kNodesSection, 7.9},      {mesh::kLeafBoxesSection, 17},
+    {mesh::kProbesSection, 640},     {hull::kStarBoxesSection, 333},
+    {hull::kBaseHullSection, 138},   {hull::kProbesSection, 1980},
+    {spline::kProbesSection, 400},   {field::kDistancesSection, 2200},
 };
 
 // Pieces between samples.

@@ -12,7 +12,6 @@
 #include "bake/mesh/sign_proof.hpp"
 #include "bake/mesh/turn_slivers.hpp"
 #include "firmtouch/math/vec3_ops.hpp"
-#include "firmtouch/mesh/triangle_shape.hpp"
 #include "surface/check/mending.hpp"
 #include "surface/point.hpp"
 
@@ -128,15 +127,6 @@ Reordered in_leaf_order(const Surface& surface, const std::vector<uint32_t>& ord
   return result;
 }
 
-// What a measurement takes from each triangle alone (FORMAT.md, 0x100F).
-std::vector<mesh::TriangleShape> make_shapes(const Surface& surface) {
-  std::vector<mesh::TriangleShape> shapes;
-  for (const Face& f : surface.faces)
-    shapes.push_back(
-        mesh::shape_of(surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]]));
-  return shapes;
-}
-
 void add_signs(const Pseudonormals& signs, const std::vector<uint32_t>& vertex_from,
                const std::vector<uint32_t>& face_from, const std::string& name,
                std::vector<Section>& sections) {
@@ -244,11 +234,10 @@ std::vector<Section> bake_mesh_so(const Surface& given, const std::string& name,
   sections.push_back(make_section(mesh::kNodesSection, name, tree.nodes));
   sections.push_back(make_section(mesh::kParentsSection, name, tree.parents));
   if (boxes.frame) sections.push_back(make_section(mesh::kBoxFrameSection, name, &*boxes.frame, 1));
-  if (options.shape.has_boxes_and_shapes) {
+  if (options.shape.has_leaf_boxes) {
     const Surface framed = boxes.frame ? in_box_frame(surface, *boxes.frame) : surface;
     sections.push_back(
         make_section(mesh::kLeafBoxesSection, name, make_leaf_boxes(framed, grid, tree)));
-    sections.push_back(make_section(mesh::kShapesSection, name, make_shapes(surface)));
   }
   for (const Section& s : sections) report.shape_bytes += static_cast<uint32_t>(s.bytes.size());
   if (options.is_signed) add_signs(signs, reordered.vertex_from, tree.order, name, sections);

@@ -33,8 +33,8 @@ struct TreeShape {
   double empty_cost =
       0;  // of a leaf's place without a face, beside 1 for a face: more, fuller leaves
   double node_cost = 0;  // of a node that splits a leaf, beside 1 for a face; 0: leaves stay whole
-  // Stored beside the tree so that its worst-case query takes less (FORMAT.md, 0x100E and 0x100F).
-  bool has_boxes_and_shapes = false;
+  // Stored beside the tree so that its worst-case query takes less (FORMAT.md, 0x100E).
+  bool has_leaf_boxes = false;
 };
 // Measured on spot, rocker-arm and horse (firmware/firmtouch/mesh/README.md, Cost).
 constexpr TreeShape kFastTree{3, 0, 0.53};

@@ -32,7 +32,7 @@ struct WideFinder {
     if constexpr (kCompensated) {
       return mesh::search_nearest<true, Bound, void>(mesh, bound, search);
     } else {
-      if (mesh.leaf_boxes() != nullptr && mesh.has_rivals())
+      if (mesh.leaf_boxes() != nullptr && (mesh.has_rivals() || mesh.triangles16().empty()))
         return mesh::search_nearest<false, Bound, mesh::WithRivals>(mesh, bound, search);
       if (mesh.leaf_boxes() != nullptr)
         return mesh::search_nearest<false, Bound, mesh::Boxed>(mesh, bound, search);

@@ -5,11 +5,11 @@
 #include "simd/search/block_triangles.hpp"
 #include "simd/search/prism_bound.hpp"
 #include "simd/search/triangle_lanes.hpp"
+#include "simd/triangle_shape.hpp"
 
 namespace firmtouch::simd {
 
 using mesh::Best;
-using mesh::TriangleShape;
 
 /// Puts into `best` the first nearest of the lanes `of`. Lane 0 is triangle `first`. Pre: one lane
 /// or more.
