@@ -83,9 +83,8 @@ Command bake_command() {
            {"--fast", nullptr,
             "meshes: the fastest on a controller rather than the smallest (the default)"},
            {"--bounded", nullptr,
-            "meshes: the worst query near the surface takes a controller a fifth less, for nearly "
-            "three "
-            "times the flash"},
+            "meshes: the worst query near the surface takes a controller a fifth less, a tick in "
+            "contact up to a fifth less, for a third more flash"},
            {"--small", nullptr,
             "meshes: a third less flash, a third more work a query; splines: half the flash"},
            {"--desktop", nullptr,
