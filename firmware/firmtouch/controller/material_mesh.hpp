@@ -26,6 +26,8 @@ class MaterialMeshWith : public MeshWith<Others..., MaterialsLoader>, public Tex
     return this->template get<MaterialsLoader>().view();
   }
   scene::Stiffening stiffening() const { return materials().stiffening(); }
+  /// Of the last model: what the materials that are touched add to contact().
+  const scene::MaterialTouch& touched() const { return state_; }
   void reset() {
     Mesh::reset();
     state_ = {};

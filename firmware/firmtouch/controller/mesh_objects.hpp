@@ -55,6 +55,8 @@ class MeshObjects : public MovingSurface {
   const mesh::View& mesh(uint32_t i) const { return mesh_[mesh_of_[i]].view(); }
   /// Device frame.
   const scene::Object& object(uint32_t i) const { return object_[i]; }
+  /// Of the last model.
+  const scene::ObjectsTouch& contact() const { return touch_; }
   /// Largest distance that the objects have had from each other: what tolerances refer to.
   float size_m() const { return size_m_; }
 

@@ -25,6 +25,8 @@ class MeshContact {
     touch_ = {};
     hint_ = {};
   }
+  /// Of the last model; unused under penalty contact.
+  const SurfaceTouch& contact() const { return touch_; }
 
  protected:
   SurfaceTouch touch_;

@@ -21,6 +21,8 @@ class SplineSurface : public spline::SurfaceLoader {
 
   const spline::View& surface() const { return view(); }
   bool is_open() const { return surface().is_open(); }
+  /// Of the last model; unused under penalty contact.
+  const SurfaceTouch& contact() const { return touch_; }
   void reset() {
     touch_ = {};
     hint_ = {};
