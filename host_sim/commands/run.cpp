@@ -19,6 +19,7 @@
 #include "host_sim/commands/progress.hpp"
 #include "host_sim/controllers/session.hpp"
 #include "host_sim/device/linkage_body.hpp"
+#include "host_sim/report/held_proxy.hpp"
 #include "host_sim/report/report.hpp"
 #include "host_sim/report/summary.hpp"
 #include "host_sim/trace/csv.hpp"
@@ -69,7 +70,7 @@ class RunOutputs {
  public:
   RunOutputs(const cli::Arguments& options, const Scenario& scenario, const Session& session,
              const Environment& environment, const RunFacts& facts)
-      : facts_(facts), summariser_(scenario, environment, facts) {
+      : facts_(facts), summariser_(scenario, environment, facts), proxies_(session) {
     if (const std::string path = options.text("--csv"); !path.empty()) csv_.emplace(path);
     if (const std::string path = options.text("--log"); !path.empty())
       log_.emplace(path, log_text(scenario, session, facts, path));
@@ -81,7 +82,7 @@ class RunOutputs {
   void add(const RunTick& tick) {
     if (csv_) csv_->add(tick, tick.record.input.tick / facts_.rate_Hz);
     if (log_) log_->add(tick.record);
-    if (charts_) charts_->add(tick), paths_->add(tick);
+    if (charts_) charts_->add(tick), paths_->add(tick, proxies_.after(tick.record));
     summariser_.add(tick);
   }
   Summary finish() {
@@ -97,6 +98,7 @@ class RunOutputs {
  private:
   const RunFacts& facts_;
   Summariser summariser_;
+  HeldProxies proxies_;
   std::optional<CsvStream> csv_;
   std::optional<LogStream> log_;
   std::optional<RunCharts> charts_;
@@ -246,7 +248,8 @@ cli::Command run_command() {
        wait_option(),
        {"--penalty", nullptr, "penalty contact instead of a proxy, for comparison"},
        {"--report", "FILE.html",
-        "report: 3D view, charts and figures in one file; FOLDER/ names it after its model"},
+        "report: 3D view, the planes that hold the proxy, charts and figures in one file;\n"
+        "                              FOLDER/ names it after its model"},
        {"--picture", "FILE.svg", "the report's 3D view and force chart"},
        {"--log", "FILE.ftl", "input and output of every tick, for `firmtouch-sim replay`"},
        {"--csv", "FILE.csv", "the same as text; - is stdout, also for --report and --picture"},

@@ -9,6 +9,7 @@ const report = (() => {
   // Joints of a linkage, a sample after the other: base and elbow of each chain, which ends at the tool.
   const joints = samples.joints ? View3d.vectors(samples.joints, 4) : [], each = joints.length / device.length;
   if (each) stage.makeRoom(joints);
+  if ($('close_up')) stage.closeUp = new CloseUp($('close_up'), samples.held);
   const kArrow = 0.6;  // radii of the largest force
   const name = document.title.split(' - ')[0];
   let charts = [], queued = false, playing = null;
@@ -20,6 +21,7 @@ const report = (() => {
     const next = Math.min(device.length - 1, i + 1), share = Math.max(0, Math.min(1, at - i));
     const between = (list, a, b) => list[a].map((v, k) => v + (list[b][k] - v) * share), tool = between(device, i, next), links = [];
     for (let k = 0; k < each; k += 2) links.push(between(joints, i * each + k, next * each + k), between(joints, i * each + k + 1, next * each + k + 1), tool, null);
+    stage.closeUp?.show(i);
     stage.setTool(tool, force[i].map(v => v * kArrow), turn[i], links);
     const newton = Math.hypot(...force[i]) * samples.peak_N;
     $('clock').textContent = `${time.cursor.toFixed(3)} s`;

@@ -267,6 +267,7 @@ class View3d {
     g.imageSmoothingQuality = 'high';
     g.drawImage(this.off, 0, 0, width, height);
     this.drawForce(g, over);
+    if (this.closeUp) this.closeUp.draw(this);
   }
   draw() {
     if (this.queued) return;

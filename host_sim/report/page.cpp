@@ -183,6 +183,19 @@ std::string plots(const RunCharts& run) {
   return html + "</div>";
 }
 
+// Drawn by pages/close_up.js.
+constexpr const char* kCloseUp =
+    "<div class=\"legend close-up\"><canvas id=\"close_up\" role=\"img\" aria-label=\"the planes "
+    "that "
+    "hold the proxy, and the cone of friction\"></canvas><div><h2>Close-up of the contact</h2>"
+    "<output></output><span><i style=\"background:#2563eb\"></i>proxy</span>"
+    "<span><i style=\"background:#7e8aa0\"></i>hand</span>"
+    "<span><i style=\"background:#c62839\"></i>spring between them</span>"
+    "<span><i style=\"background:#1f8a5b\"></i>planes that hold the proxy, and their normals</span>"
+    "<span><i style=\"background:#e2742b\"></i>cone of friction: the proxy rests while the hand is "
+    "in "
+    "it; dashed: sliding</span></div></div>";
+
 // One time for all charts and the 3D view.
 constexpr const char* kTimeBar =
     "<div id=\"time\" hidden><button type=\"button\" id=\"play\" "
@@ -222,7 +235,9 @@ std::string page_of(const Report& report) {
   html += "<ul class=\"claims\">" + certificate_claim(report.summary) +
           visits_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
           quality_claim(report.summary) + "</ul>\n";
-  html += "<div class=\"top\">" + stage_of(scene3d, "The part, the guide and the tool") +
+  html += "<div class=\"top\">" +
+          stage_of(scene3d, "The part, the guide and the tool",
+                   report.summary.has_surface ? kCloseUp : "") +
           "<section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
           "</section></div>\n";
   if (report.scenario.linkage) html += condition_card(*report.scenario.linkage, report.paths);

@@ -78,6 +78,30 @@ std::string path_text(const Scene3d& scene3d, const Path& path) {
   return text + "}";
 }
 
+// A character a sample: HeldProxy::kind. Of those with planes the hand from the proxy, in parts of
+// the farthest, and the normals, one after the other. Friction where it changes, with its sample.
+std::string held_text(const std::vector<RunPaths::Sample>& samples) {
+  double farthest_m = 1e-12;
+  for (const RunPaths::Sample& sample : samples)
+    if (!sample.held.normals.empty()) farthest_m = std::max(farthest_m, norm(sample.held.hand_m));
+  std::vector<int16_t> vectors;
+  std::string kinds, frictions, last;
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const HeldProxy& held = samples[i].held;
+    kinds += held.kind;
+    if (held.normals.empty()) continue;
+    add_scaled(vectors, held.hand_m, farthest_m);
+    for (const Vec& normal : held.normals) add_scaled(vectors, normal, 1);
+    const std::string friction =
+        fixed(held.friction_static, 3) + "," + fixed(held.friction_dynamic, 3) + "]";
+    if (friction != last)
+      frictions += (frictions.empty() ? "[" : ",[") + std::to_string(i) + "," + friction;
+    last = friction;
+  }
+  return "{\"kinds\":\"" + kinds + "\",\"farthest_mm\":" + fixed(farthest_m * 1e3, 6) +
+         ",\"vectors\":" + packed(vectors) + ",\"friction\":[" + frictions + "]}";
+}
+
 std::string samples_text(const Report& report, const Scene3d& scene3d) {
   std::vector<int16_t> device, force, turn, joints;
   for (const RunPaths::Sample& sample : report.paths.samples()) {
@@ -90,7 +114,7 @@ std::string samples_text(const Report& report, const Scene3d& scene3d) {
   return "{\"step_s\":" + fixed(report.paths.ticks_per_sample() / report.facts.rate_Hz, 6) +
          ",\"first\":" + std::to_string(report.paths.first()) +
          ",\"peak_N\":" + fixed(report.paths.peak_N(), 6) + ",\"device\":" + packed(device) +
-         ",\"force\":" + packed(force) +
+         ",\"force\":" + packed(force) + ",\"held\":" + held_text(report.paths.samples()) +
          (report.environment.tool().empty() ? "" : ",\"turn\":" + packed(turn)) +
          (report.paths.joints_m().empty() ? "" : ",\"joints\":" + packed(joints)) + "}";
 }

@@ -173,7 +173,7 @@ size_t RunPaths::first() const {
   return std::min<size_t>((facts_.setup_ticks + stride_ - 1) / stride_, samples_.size());
 }
 
-void RunPaths::add(const RunTick& tick) {
+void RunPaths::add(const RunTick& tick, const HeldProxy& held) {
   const record::TickOutput& out = tick.record.output;
   const Vec force_N = narrow(out.force_N);
   moving_.take(tick.record);
@@ -191,7 +191,7 @@ void RunPaths::add(const RunTick& tick) {
   if (ticks_++ % stride_ != 0) return;
   samples_.push_back({tick.device_m, narrow(out.position_m), tick.target_m, force_N,
                       narrow(out.proxy_m), (out.state & record::kStateContact) != 0,
-                      tool_.turn_rad()});
+                      tool_.turn_rad(), held});
   if (linkage_ == nullptr) return;
   for (const Vec& joint : host_sim::joints_m(*linkage_, tick.joints)) joints_m_.push_back(joint);
 }

@@ -7,6 +7,7 @@
 #include "host_sim/plant/environment.hpp"
 #include "host_sim/plant/turning_tool.hpp"
 #include "host_sim/plant/vec.hpp"
+#include "host_sim/report/held_proxy.hpp"
 #include "host_sim/report/image.hpp"
 #include "host_sim/scenario/scenario.hpp"
 #include "host_sim/trace/run.hpp"
@@ -59,13 +60,15 @@ class RunPaths {
  public:
   /// `scenario` and `facts` outlive this.
   RunPaths(const Environment& environment, const Scenario& scenario, const RunFacts& facts);
-  void add(const RunTick& tick);
+  /// `held`: HeldProxies::after() of the tick.
+  void add(const RunTick& tick, const HeldProxy& held = {});
 
   struct Sample {
     Vec device_m, tool_m, target_m, force_N;
     Vec proxy_m;
     bool touches = false;
     Vec turn_rad = {};  // of a tool of spheres
+    HeldProxy held = {};
   };
   const std::vector<Sample>& samples() const { return samples_; }
   uint32_t ticks_per_sample() const { return stride_; }

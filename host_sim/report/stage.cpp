@@ -40,14 +40,14 @@ std::string page_head(const std::string& title) {
          "</style></head>\n<body><main>";
 }
 
-std::string stage_of(const Scene3d& scene3d, const std::string& title) {
+std::string stage_of(const Scene3d& scene3d, const std::string& title, const std::string& more) {
   return "<section class=\"card stage\"><div class=\"title\"><h2>" + title +
          "</h2><span class=\"now\"></span></div>"
          "<div class=\"sight\"><p class=\"hint\">drag: rotate; Shift or two fingers: move; pinch, "
          "or "
          "click and scroll: zoom; double-click: reset</p><canvas id=\"stage\" tabindex=\"0\" "
          "role=\"img\" aria-label=\"the part in 3D with its paths\"></canvas></div>" +
-         noscript(scene3d) + legend(scene3d) + "</section>";
+         noscript(scene3d) + legend(scene3d) + more + "</section>";
 }
 
 }  // namespace firmtouch::host_sim

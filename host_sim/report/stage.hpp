@@ -9,7 +9,8 @@ namespace firmtouch::host_sim {
 std::string page_head(const std::string& title);
 
 /// The card of the 3D view (pages/view3d.js), with its legend and a picture for browsers without
-/// JavaScript.
-std::string stage_of(const Scene3d& scene3d, const std::string& title);
+/// JavaScript. `more`: HTML behind the legend.
+std::string stage_of(const Scene3d& scene3d, const std::string& title,
+                     const std::string& more = "");
 
 }  // namespace firmtouch::host_sim

@@ -107,6 +107,36 @@ void stage(Test& test) {
                           "})()"));
 }
 
+// The run has friction of 0.4 at rest, 0.25 sliding. The force is the record's; it begins with a
+// press that does not slide.
+void close_up(Test& test) {
+  test.run(
+      "window.closeUp = report.stage.closeUp; window.unit = a => a.map(v => v / Math.hypot(...a)); "
+      "window.colours = () => { const c = closeUp.canvas, d = c.width ? c.getContext('2d')"
+      ".getImageData(0, 0, c.width, c.height).data : [], all = new Set(); for (let i = 0; i < "
+      "d.length; i += 4) all.add(`${d[i]},${d[i + 1]},${d[i + 2]}`); return all; }; "
+      "window.said = () => document.querySelector('.close-up output').textContent; "
+      "report.time.set(0.85)");
+  test.check(
+      "the close-up has the plane that a press is on, its normal along the force",
+      test.becomes("closeUp.normals.length === 1 && unit(report.stage.force).every((v, k) "
+                   "=> Math.abs(v - closeUp.normals[0][k]) < 0.02) && "
+                   "/^The hand is 1.99 mm .* 0.00; friction 0.40, sliding 0.25/.test(said())"));
+  test.check("it draws proxy, hand, plane and cone",
+             test.becomes("['37,99,235', '126,138,160', '31,138,91', '226,116,43'].every(c => "
+                          "colours().has(c))"));
+  test.check("where the tool slides on a plane, the hand is on the cone of friction",
+             test.becomes("(() => { const all = []; [...closeUp.held.kinds].forEach((kind, i) => { "
+                          "closeUp.show(i); if (kind === '1') all.push(closeUp.along); }); const "
+                          "count = is => all.filter(is).length; return all.length > 2000 && "
+                          "count(a => Math.abs(a - 0.25) < 0.01) > 0.6 * all.length && "
+                          "count(a => a < 0.41) > 0.99 * all.length; })()",
+                          2));
+  test.run("report.time.set(3)");
+  test.check("without contact it draws nothing, and says so",
+             test.becomes("said() === 'No contact.' && colours().size === 1"));
+}
+
 void lines_and_files(Test& test) {
   const std::string lines = "report.charts[0].node.querySelectorAll('polyline[data-series=\"0\"]')";
   test.check("a line is shown", test.becomes(lines + ".length > 0", 2));
@@ -189,6 +219,7 @@ int main(int, char** words) {
   time(test);
   zoom_and_pan(test);
   stage(test);
+  close_up(test);
   test.picture("report_3d");
   lines_and_files(test);
   event(test);
