@@ -185,16 +185,15 @@ std::string plots(const RunCharts& run) {
 
 // Drawn by pages/close_up.js.
 constexpr const char* kCloseUp =
-    "<div class=\"legend close-up\"><canvas id=\"close_up\" role=\"img\" aria-label=\"the planes "
-    "that "
-    "hold the proxy, and the cone of friction\"></canvas><div><h2>Close-up of the contact</h2>"
-    "<output></output><span><i style=\"background:#2563eb\"></i>proxy</span>"
+    "<div class=\"legend close-up\"><canvas id=\"close_up\" role=\"img\" "
+    "aria-label=\"the planes that hold the proxy, and the cone of friction\"></canvas>"
+    "<div><h2>Close-up of the contact</h2><output></output>"
+    "<span><i style=\"background:#2563eb\"></i>proxy</span>"
     "<span><i style=\"background:#7e8aa0\"></i>hand</span>"
     "<span><i style=\"background:#c62839\"></i>spring between them</span>"
     "<span><i style=\"background:#1f8a5b\"></i>planes that hold the proxy, and their normals</span>"
-    "<span><i style=\"background:#e2742b\"></i>cone of friction: the proxy rests while the hand is "
-    "in "
-    "it; dashed: sliding</span></div></div>";
+    "<span><i style=\"background:#e2742b\"></i>cone of friction: the proxy rests while the hand "
+    "is in it; dashed: sliding</span></div></div>";
 
 // One time for all charts and the 3D view.
 constexpr const char* kTimeBar =
