@@ -32,6 +32,18 @@ struct Baked {
     CHECK(report.problem.empty());
     CHECK(tools::open_baked(sections, "part", view).ok());
   }
+  // As a mesh of more than 65,536 vertices.
+  void take_indices_of_32_bits() {
+    for (tools::Section& section : sections) {
+      if (section.type != mesh::kTriangles16Section) continue;
+      std::vector<uint16_t> narrow(section.bytes.size() / sizeof(uint16_t));
+      memcpy(narrow.data(), section.bytes.data(), section.bytes.size());
+      const std::vector<uint32_t> wide(narrow.begin(), narrow.end());
+      section = tools::make_section(mesh::kTriangles32Section, section.name, wide);
+    }
+    CHECK(tools::open_baked(sections, "part", view).ok());
+    CHECK(view.triangles16().empty());
+  }
 };
 
 // Near the surface and far from it, one after the other in short steps and in long ones.
@@ -129,6 +141,16 @@ TEST(EveryLevel_HasTheBitsOfTheScalarSearch) {
     for (const query::Budget budget :
          {query::kUnlimited, query::Budget{12}, query::Budget{UINT32_MAX, 0.05f}})
       CHECK_EQ(differences_at_levels(baked.view, budget, seed++), 0u);
+  }
+}
+
+TEST(EveryLevel_HasTheBitsOfTheScalarSearch_IndicesOf32Bits) {
+  for (const tools::TreeShape& shape : {tools::kFastTree, tools::kBoundedTree}) {
+    Baked baked(shape);
+    baked.take_indices_of_32_bits();
+    for (const query::Budget budget :
+         {query::kUnlimited, query::Budget{12}, query::Budget{UINT32_MAX, 0.05f}})
+      CHECK_EQ(differences_at_levels(baked.view, budget, 14), 0u);
   }
 }
 
