@@ -221,8 +221,7 @@ template <class Wanted>
 [[gnu::noinline]] uint32_t measure_boxed(uint32_t prune, uint32_t child, uint32_t slot,
                                          Search& search) {
   if (prune != 0 && is_beyond(prune, child, search)) return 1;
-  measure_triangles<LeafCorners<uint16_t>, Nearer>(child, slot, search);
-  return search.best.slot ^ slot;
+  return measure_plain<Nearer>(prune, child, slot, search);
 }
 
 // `prune`: the lowest key that is not visited; 0 at the last leaf. Result: whether a triangle was
