@@ -201,10 +201,11 @@ void ObjectsTick::shrink(float room_m) {
   }
   if (!(touch_.full_radius_m > 0.0f)) touch_.full_radius_m = proxy_.radius_m;
   if (room_m < proxy_.radius_m) proxy_.radius_m = room_m;
-  for (const Feature& feature : met_) {
-    if (feature.kind == Feature::Kind::kNone) continue;
+  for (const Feature& met : met_) {
+    const Feature feature = in_frame(met);
+    if (has(feature)) continue;  // twice it would leave no place for others
     const uint32_t at = proxy_.feature_count < kMaxFeatures ? proxy_.feature_count++ : 0;
-    proxy_.feature[at] = in_frame(feature);
+    proxy_.feature[at] = feature;
     proxy_.plane[at] = {};  // a proxy that grows takes all anew
   }
 }
