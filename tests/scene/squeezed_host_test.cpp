@@ -5,6 +5,29 @@
 using namespace firmtouch;  // NOLINT: a test file
 using namespace scene_boxes;
 
+// It presses on a floor and the ceiling slides by: a tick moves it farther than its gap is wide.
+TEST(Squeezed_CeilingThatSlidesByAToolWithFriction_LeavesItsRoom) {
+  const float frictions[] = {0.0f, 0.3f, 2.0f}, gaps_m[] = {1e-5f, 1e-4f, 1e-3f};
+  for (const float friction : frictions) {
+    for (const float gap_m : gaps_m) {
+      Boxes boxes;
+      boxes.is_plane = true;
+      boxes.contact.settings.friction_static = friction;
+      boxes.contact.settings.friction_dynamic = friction;
+      boxes.add(object_at({0, 0, -0.01f}));
+      scene::Object ceiling = object_at({0, 0, 2 * Boxes::kRadius_m + gap_m + 0.01f});
+      ceiling.pose.rotation = {{{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
+      boxes.add(ceiling);
+      boxes.tick({0, 0, Boxes::kRadius_m + 0.5f * gap_m});
+      for (int tick = 0; tick < 5; ++tick) boxes.tick({0.001f, 0, 0});
+      boxes.object[1].twist.velocity_mps = {0.7f, 0, 0};
+      for (int tick = 0; tick < 200; ++tick) boxes.tick({0.001f, 0, 0});
+      CHECK_EQ(boxes.output.faults, 0u);
+      CHECK(is_near(boxes.output.proxy_m.z, Boxes::kRadius_m, 3e-6f));
+    }
+  }
+}
+
 // It presses into the corner of three walls, each of which slides in its own plane.
 TEST(Squeezed_CornerOfWallsThatSlideInTheirPlanes_LeavesItsRoom) {
   const scene::Object at_rest[3] = {

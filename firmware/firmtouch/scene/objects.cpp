@@ -247,7 +247,6 @@ void ObjectsTick::restore_radius() {
   float& full_m = touch_.full_radius_m;
   if (proxy_.phase != Proxy::Phase::kFree) full_m = 0;
   if (!(full_m > 0.0f)) return;
-  constexpr float kSqueezed = 0.9f;  // of its radius
   touch_.is_squeezed = proxy_.radius_m < kSqueezed * full_m;
   if (proxy_.free_m >= full_m - kClearance * size_m_) {
     proxy_.radius_m = full_m;

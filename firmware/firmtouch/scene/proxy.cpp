@@ -236,6 +236,12 @@ bool ProxyMove::aim() {
     // What searches of ways take must not be lacking for certificates.
     is_short_ = cap_ >= kCap && moved_.work <= work_left_ / 2 && work_left_ >= kMinWayWork;
   }
+  // A tool may have more room where it stands than what is certified.
+  if (proxy_.radius_m < kSqueezed * aimed_radius_m_ && moved_.queries == 0 && work_left_ > 0) {
+    trial_m_ = proxy_.position_m;
+    is_short_ = false;
+    return true;
+  }
   is_over_ = true;
   if (size_m <= tolerance_m) {
     moved_.is_optimal = true;

@@ -16,6 +16,8 @@ constexpr uint32_t kWayShare = 8;     // an eighth of the work that is left may 
 // Relative to the size of the shape.
 constexpr float kClearance = 2e-6f;  // that a place may lack of the radius
 constexpr float kMinRadius = 4e-6f;  // of a tool that is a point: what the clearance needs
+// The share of its radius below which objects that move squeeze a tool.
+constexpr float kSqueezed = 0.9f;
 // On a shape that proves no way free (free_part() in scene/touched.hpp) a move ends with the free
 // ball, so a smaller one would lag behind a hand.
 constexpr float kMinBall = 1e-3f;
