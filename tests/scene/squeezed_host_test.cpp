@@ -58,3 +58,18 @@ TEST(Squeezed_CornerOfWallsThatSlideInTheirPlanes_LeavesItsRoom) {
     CHECK_EQ(boxes.output.faults, 0u);
   }
 }
+
+// It began too near to a floor and grows to its size. A wall that slides by pushes it meanwhile.
+TEST(Squeezed_ToolThatIsPushedWhileItGrows_GoesOnGrowing) {
+  Boxes boxes;
+  boxes.is_plane = true;
+  boxes.add(object_at({0, 0, -0.01f}));
+  boxes.add({{{{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}}, {-0.014f, 0, 0}}, {}});
+  for (int tick = 0; tick < 300; ++tick) {
+    boxes.object[1].twist.velocity_mps = {0, tick >= 20 && tick < 24 ? 3.0f : 0.0f, 0};
+    boxes.tick({0, 0, 0.002f});
+  }
+  CHECK_EQ(boxes.output.faults, 0u);
+  CHECK(is_near(boxes.output.proxy_m.z, Boxes::kRadius_m, 3e-6f));
+  CHECK(is_near(boxes.output.force_N.z, 1.0f, 0.003f));
+}

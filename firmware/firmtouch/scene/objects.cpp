@@ -199,7 +199,10 @@ void ObjectsTick::shrink(float room_m) {
     touch_.full_radius_m = 0;
     return enter(place_in(kNoObject, was_.device_m));
   }
-  if (!(touch_.full_radius_m > 0.0f)) touch_.full_radius_m = proxy_.radius_m;
+  if (!(touch_.full_radius_m > 0.0f)) {
+    touch_.full_radius_m = proxy_.radius_m;
+    touch_.was_growing = proxy_.is_growing;
+  }
   if (room_m < proxy_.radius_m) proxy_.radius_m = room_m;
   for (const Feature& met : met_) {
     const Feature feature = in_frame(met);
@@ -250,7 +253,7 @@ void ObjectsTick::restore_radius() {
   touch_.is_squeezed = proxy_.radius_m < kSqueezed * full_m;
   if (proxy_.free_m >= full_m - kClearance * size_m_) {
     proxy_.radius_m = full_m;
-    proxy_.is_growing = false;
+    proxy_.is_growing = touch_.was_growing;
     full_m = 0;
   }
 }

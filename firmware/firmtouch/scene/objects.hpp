@@ -47,6 +47,7 @@ struct ObjectsTouch {
   float seen_m = 0;
   float upper_m = 0;  // of the distance from the proxy to the objects, at the end of the last tick
   bool is_squeezed = false;  // in the last tick
+  bool was_growing = false;  // before objects pushed it
 };
 
 static_assert(sizeof(ObjectsTouch) <= 576 && sizeof(ObjectPair) <= 72);
