@@ -300,6 +300,7 @@ namespace {
 const FiveBar kHaply{0, {.07f, .07f}, {.09f, .09f}, true};
 const FiveBar kMark2{.025f, {.063f, .063f}, {.075f, .075f}, true};
 const FiveBar kUneven{.04f, {.05f, .07f}, {.11f, .08f}, false};
+const FiveBar kLopsided{.06f, {.05f, .05f}, {.1f, .025f}, true};
 const SerialArm kScara{2, {.15f, .12f}, 0, 0, false};
 const SerialArm kTouch{3, {.13f, .13f}, .02f, .12f, false};
 const SerialArm kPhantom{3, {.215f, .17f}, 0, .1f, true};
@@ -312,6 +313,7 @@ TEST(FiveBar_RandomPoses_AreThoseOfKinematicsInDouble) {
   attack(kHaply, 1);
   attack(kMark2, 2);
   attack(kUneven, 3);
+  attack(kLopsided, 9);
 }
 
 TEST(SerialArm_RandomPoses_AreThoseOfKinematicsInDouble) {

@@ -22,9 +22,10 @@ core::Verdict check(const Delta& delta);
 /// Forward kinematics and Jacobian.
 /// Pre: check(delta) passed. Bounds: constant. Result: finite for every angle. Where the lower
 /// links do not reach each other, the position is in the plane of the upper links' ends.
-/// Error: links to 0.2 m, reciprocal condition at least 0.05: position within 1e-6 m. There, where
-/// unit vectors along the lower links span a volume of at least 0.3: columns within 1e-5 of the
-/// larger of the Jacobian's norm and the shortest upper link (tests/device/linkage_host_test.cpp).
+/// Error: links to 0.2 m, none longer than 4 times another, reciprocal condition at least 0.05:
+/// position within 3e-6 m. There, where unit vectors along the lower links span a volume of at
+/// least 0.3: columns within 5e-5 of the larger of the Jacobian's norm and the shortest upper link.
+/// A third and a fifth of that at most in tests/device/linkage_host_test.cpp.
 /// Source: Tsai & Stamper 1996; offsets as in Martin & Hillier 2009.
 Pose pose_of(const Delta& delta, const float (&angle_rad)[kMaxJoints]);
 

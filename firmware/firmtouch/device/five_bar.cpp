@@ -49,12 +49,15 @@ Pose pose_of(const FiveBar& bar, const float (&angle_rad)[kMaxJoints]) {
   const float first2 = bar.distal_m[0] * bar.distal_m[0];
   const float second2 = bar.distal_m[1] * bar.distal_m[1];
   const float inverse = way2 > 1e-12f ? 1.0f / way2 : 0.0f;
-  const float along = 0.5f + 0.5f * (first2 - second2) * inverse;
-  const float height2 = first2 * inverse - along * along;
+  // From the elbow of the shorter one: the longer one's square would round away what it has.
+  const bool is_second = second2 < first2;
+  const float longer2 = is_second ? first2 : second2, shorter2 = is_second ? second2 : first2;
+  const float along = 0.5f + 0.5f * (shorter2 - longer2) * inverse;
+  const float height2 = shorter2 * inverse - along * along;
   const bool is_reachable = height2 > 0.0f;
   const float root = is_reachable ? math::square_root(height2) : 0.0f;
   const float height = bar.is_tip_left ? root : -root;
-  const Planar distal0 = way * along + turned(way) * height;
+  const Planar distal0 = way * (is_second ? 1.0f - along : along) + turned(way) * height;
   const Planar distal1 = distal0 - way;
   const Planar tip = elbow + distal0;
 

@@ -18,10 +18,10 @@ core::Verdict check(const FiveBar& bar);
 /// Forward kinematics and Jacobian; column 2 is 0.
 /// Pre: check(bar) passed. Bounds: constant. Result: finite for every angle. Where the distal links
 /// do not reach each other, the position is on the line through the elbows.
-/// Error: links to 0.2 m, reciprocal condition at least 0.05: position within 1e-6 m. There, where
-/// the sine of the angle between the distal links is at least 0.3: columns within 1e-5 of the
-/// larger of the Jacobian's norm and the shorter proximal link
-/// (tests/device/linkage_host_test.cpp).
+/// Error: links to 0.2 m, no distal one longer than 4 times the other, reciprocal condition at
+/// least 0.05: position within 1e-6 m. There, where the sine of the angle between the distal links
+/// is at least 0.3: columns within 1e-5 of the larger of the Jacobian's norm and the shorter
+/// proximal link (tests/device/linkage_host_test.cpp).
 /// Source: Campion, Wang & Hayward 2005, The Pantograph Mk-II.
 Pose pose_of(const FiveBar& bar, const float (&angle_rad)[kMaxJoints]);
 
