@@ -129,9 +129,9 @@ void begin_materials(ProxyContact& contact, ProxyTouch& touch, const MaterialTou
   settings.friction_dynamic = larger(settings.friction_dynamic, response.friction_dynamic);
   contact.friction_viscous_N_s_per_m =
       larger(contact.friction_viscous_N_s_per_m, response.friction_viscous_N_s_per_m);
-  // A spring to another place than the proxy has held it; its model may be the one before.
+  // A spring to another place than the proxy held it in the model before the last.
   const Proxy& proxy = touch.proxy;
-  const float reach_m = state.is_held ? 0.0f : proxy.free_m - proxy.radius_m;
+  const float reach_m = proxy.free_m - proxy.radius_m;
   if (state.has_textures && !(math::length(contact.proxy_m - proxy.position_m) <= reach_m))
     contact.proxy_m = proxy.position_m;
   if (!state.is_held) return;

@@ -60,8 +60,9 @@ ProxySettings begin_proxy_contact(const ProxyContact& contact, ProxyTouch& touch
   if (is_free && (!contact.has_proxy || (proxy.is_loaded && !is_on))) {
     proxy.phase = Proxy::Phase::kUnknown;
     proxy.is_loaded = false;
-  } else if (is_free) {
-    // At two rates servo has moved it within the ball that was certified.
+  } else if (is_free && !proxy.is_loaded) {
+    // At two rates servo has moved it within the ball that was certified. Under load it stands: the
+    // end of the spring that servo holds may be elsewhere.
     const Vec3 moved_m = contact.proxy_m - proxy.position_m;
     if (!(math::dot(moved_m, moved_m) <= 0.0f)) {
       const float left_m = proxy.free_m - math::length(moved_m) * (1.0f + 0x1p-20f);
