@@ -35,7 +35,7 @@ bool is_still(const record::TickOutput& output) {
 
 // The RAM of a controller: a release that grows it says so here. (Pointers are twice as wide on a
 // 64-bit host.)
-static_assert(sizeof(FullController) <= (sizeof(void*) == 8 ? 5896 : 4960),
+static_assert(sizeof(FullController) <= (sizeof(void*) == 8 ? 5936 : 5000),
               "the controller outgrew its RAM budget");
 
 TEST(NoAsset_PositionIsMeasured_MotorsAreOff) {

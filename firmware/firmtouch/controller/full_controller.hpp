@@ -3,6 +3,7 @@
 #include "firmtouch/controller/curve_guide.hpp"
 #include "firmtouch/controller/homed_device.hpp"
 #include "firmtouch/controller/mesh_surface.hpp"
+#include "firmtouch/controller/shaded.hpp"
 #include "firmtouch/controller/spline_guide.hpp"
 #include "firmtouch/controller/spline_surface.hpp"
 #include "firmtouch/params/table.hpp"
@@ -12,7 +13,7 @@ namespace firmtouch {
 /// A controller of every part of the library, with names for what it has opened.
 template <template <class> class ScenesOf, class Device = HomedDevice, class Mesh = FullMesh,
           class SurfaceList = Surfaces<Mesh, SplineSurface>>
-class EveryPart : public Controller<SurfaceList, Guides<CurveGuide, SplineGuide>, Device,
+class EveryPart : public Controller<Shaded<SurfaceList>, Guides<CurveGuide, SplineGuide>, Device,
                                     asset::Proven, ScenesOf> {
  public:
   const mesh::View& mesh() const { return full_mesh().mesh(); }

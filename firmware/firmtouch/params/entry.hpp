@@ -99,6 +99,7 @@ enum Index : uint32_t {
   kEnergyReservoir,
   kDeviceDamping,
   kFrictionViscous,
+  kContactShading,
   kCount
 };
 

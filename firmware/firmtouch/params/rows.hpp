@@ -109,6 +109,14 @@ struct FrictionRows {
   };
 };
 
+/// Force shading over edges; contact through a proxy has it.
+struct ShadingRows {
+  static constexpr Entry kRows[] = {
+      {kContactShading, "contact_shading_m", "m", 0.0f, 0.1f, 0.0f, When::kAnytime,
+       "convex edges turn the force as this radius, for F r a^2 / 2; 0: at once"},
+  };
+};
+
 /// Spline surfaces.
 struct SheetRows {
   static constexpr Entry kRows[] = {

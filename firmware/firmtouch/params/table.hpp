@@ -8,7 +8,7 @@
 namespace firmtouch::params {
 
 constexpr Table kTable = Composed<Groups<SafetyRows, DeviceRows, SceneRows, ContactRows,
-                                         FrictionRows, SheetRows, GuideRows>>::kTable;
+                                         FrictionRows, ShadingRows, SheetRows, GuideRows>>::kTable;
 static_assert(kTable.size() == kCount, "a number has no row");
 
 inline Values initial_values() {
