@@ -25,6 +25,7 @@ void run_contact_bench(const bench::Options& options, bench::Report& report) {
   report.stage("upright");
   const Rig upright(0);
   add_bars(all_rows(upright, Contact::kProxy, options.is_long), "upright", report);
+  add_bars(shading_rows(upright), "upright", report);
   const uint64_t seeds = options.is_long ? 50 : 10;
   std::vector<ContactRow> worst;
   for (uint64_t seed = 1; seed <= seeds; ++seed) {

@@ -22,6 +22,9 @@ std::vector<ContactRow> onset_rows(const Rig& rig, Contact contact);
 /// `is_long`: all pairs of thickness and radius; else some.
 std::vector<ContactRow> plate_rows(const Rig& rig, Contact contact, bool is_long);
 
+/// A point slides over a coarse ball: how the force turns, without force shading and with it.
+std::vector<ContactRow> shading_rows(const Rig& rig);
+
 /// Adds what closed loops of a hand over objects of different stiffness give and take.
 void add_material_rows(bool is_long, bench::Report& report);
 

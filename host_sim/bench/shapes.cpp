@@ -1,5 +1,6 @@
 #include "host_sim/bench/shapes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -140,6 +141,42 @@ Solid groove(double half_angle_rad) {
   const double w = 0.01 * std::tan(half_angle_rad), e = std::max(0.04, w + 0.02);
   return extruded({{-e, 0}, {-e, -0.03}, {e, -0.03}, {e, 0}, {w, 0}, {0, -0.01}, {-w, 0}},
                   {{0, 1, 6}, {6, 1, 5}, {5, 1, 2}, {5, 2, 4}, {4, 2, 3}}, 0.06);
+}
+
+Solid coarse_ball() {
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  Solid solid;
+  for (int i = 0; i < 12; ++i) {
+    const double a = i % 2 == 0 ? 1 : -1, b = i % 4 < 2 ? g : -g;
+    solid.vertices.push_back(i < 4 ? Vec{0, a, b} : i < 8 ? Vec{a, b, 0} : Vec{b, 0, a});
+  }
+  // An icosahedron's corners are 2 apart. Each face becomes four, twice.
+  for (uint32_t i = 0; i < 12; ++i)
+    for (uint32_t j = i + 1; j < 12; ++j)
+      for (uint32_t k = j + 1; k < 12; ++k) {
+        const Vec a = solid.vertices[i], b = solid.vertices[j], c = solid.vertices[k];
+        if (norm(a - b) + norm(b - c) + norm(c - a) > 6.01) continue;
+        const bool is_outward = dot(cross(b - a, c - a), a) > 0;
+        solid.faces.push_back(is_outward ? Face{i, j, k} : Face{i, k, j});
+      }
+  for (int round = 0; round < 2; ++round) {
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middle;
+    const auto between = [&](uint32_t i, uint32_t j) {
+      const auto [found, is_new] =
+          middle.insert({std::minmax(i, j), static_cast<uint32_t>(solid.vertices.size())});
+      if (is_new) solid.vertices.push_back(unit(solid.vertices[i] + solid.vertices[j]));
+      return found->second;
+    };
+    std::vector<Face> faces;
+    for (const Face& f : solid.faces) {
+      const uint32_t x = between(f[0], f[1]), y = between(f[1], f[2]), z = between(f[2], f[0]);
+      for (const Face& part : {Face{f[0], x, z}, {x, f[1], y}, {z, y, f[2]}, {x, y, z}})
+        faces.push_back(part);
+    }
+    solid.faces = faces;
+  }
+  for (Vec& v : solid.vertices) v = unit(v) * 0.02;
+  return solid;
 }
 
 Solid slot(double width_m) {

@@ -38,6 +38,8 @@ Solid floor_and_wall();
 Solid three_walls();
 /// A groove along y, 10 mm deep; the angle is between a flank and the vertical.
 Solid groove(double half_angle_rad);
+/// A ball of 320 flat faces, with its corners 20 mm from the origin.
+Solid coarse_ball();
 /// Two boxes, level at z = 0, with a slot along y between them.
 Solid slot(double width_m);
 
