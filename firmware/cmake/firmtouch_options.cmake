@@ -123,7 +123,8 @@ function(firmtouch_freestanding target)
                                            ${FIRMTOUCH_ARITHMETIC_FLAGS} ${FIRMTOUCH_NATIVE_FLAGS}
                                            ${FIRMTOUCH_WARNING_FLAGS})
   target_compile_definitions(${target} PRIVATE ${FIRMTOUCH_ARCH_DEFINITION})
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # Each file is a unit of its own, also in a project with CMAKE_UNITY_BUILD.
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF UNITY_BUILD OFF)
 endfunction()
 
 # firmtouch_firmware(TARGET): those, with the warnings of our own sources.

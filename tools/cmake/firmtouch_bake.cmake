@@ -156,8 +156,8 @@ __asm__(
 ]])
   set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${asset})
   add_library(${embed_TARGET} STATIC ${source})
-  # With -flto a symbol that only assembly defines is not found.
-  set_target_properties(${embed_TARGET} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF)
+  # With -flto a symbol that only assembly defines is not found; in a unity build OBJECT_DEPENDS has no effect.
+  set_target_properties(${embed_TARGET} PROPERTIES INTERPROCEDURAL_OPTIMIZATION OFF UNITY_BUILD OFF)
   target_compile_options(${embed_TARGET} PRIVATE -fno-lto)
   if(TARGET ${embed_ASSET})
     add_dependencies(${embed_TARGET} ${embed_ASSET})
