@@ -60,7 +60,10 @@ void LiveServer::poll(int timeout_ms) {
   if (stream_ != nullptr) ready.push_back({stream_->descriptor(), POLLIN, 0});
   const size_t first = ready.size();
   for (const Client& client : clients_) {
-    const short events = client.waiting.empty() ? POLLIN : POLLIN | POLLOUT;
+    // One that is ending is read no more: it may have closed its own direction.
+    const short events = client.is_ending         ? POLLOUT
+                         : client.waiting.empty() ? POLLIN
+                                                  : POLLIN | POLLOUT;
     ready.push_back({client.socket, events, 0});
   }
   if (::poll(ready.data(), ready.size(), timeout_ms) <= 0) return;
@@ -190,7 +193,8 @@ void LiveServer::read_controller() try {
     decoder_.push(bytes[i]);
     link::Frame frame;
     while (decoder_.next(frame)) {
-      if (holder == clients_.end() || holder->waiting.size() > kMaxWaiting) continue;
+      if (holder == clients_.end() || holder->is_ending || holder->waiting.size() > kMaxWaiting)
+        continue;
       uint8_t whole[link::kMaxFrameBytes];
       const uint32_t size = link::encode(frame.type, frame.sequence, frame.payload, whole);
       holder->waiting += message_of(Opcode::kBinary, whole, size);

@@ -24,14 +24,13 @@ namespace {
 
 // A server with a controller's end of the link in this test's hand.
 struct Served {
-  Served() {
+  explicit Served(const std::string& page = "<html>the page</html>") {
     int ends[2];
     CHECK_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
     controller = ends[0];
     for (port = static_cast<uint16_t>(30000 + ::getpid() % 20000); server == nullptr; ++port) try {
         server = std::make_unique<LiveServer>(
-            port, "<html>the page</html>",
-            std::make_unique<ByteStream>(ends[1], ends[1], "controller"));
+            port, page, std::make_unique<ByteStream>(ends[1], ends[1], "controller"));
       } catch (const host_sim::Refused&) {
         CHECK_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
         controller = ends[0];
@@ -80,6 +79,7 @@ class Browser {
     }
     return all;
   }
+  void send_no_more() const { CHECK_EQ(::shutdown(socket_, SHUT_WR), 0); }
   std::string get(const std::string& path, const std::string& host, const std::string& more = "") {
     return send("GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + more + "\r\n");
   }
@@ -125,6 +125,17 @@ TEST(LiveServer_OwnName_GetsThePage) {
   CHECK(has(Browser(served).get("/", Browser(served).own()), "the page"));
   CHECK(has(Browser(served).get("/", "localhost:" + std::to_string(served.port)), "the page"));
   CHECK(has(Browser(served).get("/other", Browser(served).own()), "404"));
+}
+
+TEST(LiveServer_SlowBrowserThatSendsNoMore_GetsTheWholePage) {
+  const std::string page(32u << 20, 'p');  // more than the sockets hold
+  Served served(page);
+  Browser browser(served);
+  std::string all = browser.get("/", browser.own());
+  CHECK(all.size() < page.size());
+  browser.send_no_more();
+  for (int i = 0; i < 100 && !has(all, "<closed>"); ++i) all += browser.receive();
+  CHECK(has(all, page + "<closed>"));
 }
 
 TEST(LiveServer_ForeignNameOrOrigin_IsRefused) {
