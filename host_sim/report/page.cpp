@@ -183,6 +183,11 @@ std::string plots(const RunCharts& run) {
   return html + "</div>";
 }
 
+std::string stage_title(const Summary& s) {
+  if (!s.has_guide) return "The part and the tool";
+  return s.has_surface ? "The part, the guide and the tool" : "The guide and the tool";
+}
+
 // Drawn by pages/close_up.js.
 constexpr const char* kCloseUp =
     "<div class=\"legend close-up\"><canvas id=\"close_up\" role=\"img\" "
@@ -234,11 +239,11 @@ std::string page_of(const Report& report) {
   html += "<ul class=\"claims\">" + certificate_claim(report.summary) +
           visits_claim(report.summary) + bits_claim(report) + contact_claim(report.summary) +
           quality_claim(report.summary) + "</ul>\n";
-  html += "<div class=\"top\">" +
-          stage_of(scene3d, "The part, the guide and the tool",
-                   report.summary.has_surface ? kCloseUp : "") +
-          "<section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
-          "</section></div>\n";
+  html +=
+      "<div class=\"top\">" +
+      stage_of(scene3d, stage_title(report.summary), report.summary.has_surface ? kCloseUp : "") +
+      "<section class=\"card\"><h2>Key figures</h2>" + table(report, scene3d) +
+      "</section></div>\n";
   if (report.scenario.linkage) html += condition_card(*report.scenario.linkage, report.paths);
   html += plots(report.charts) + kTimeBar;
   html += "<footer><p>Written by <code>" + html_of(report.command) +
