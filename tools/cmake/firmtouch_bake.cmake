@@ -34,8 +34,8 @@ function(firmtouch_host_program program depends)
   set(${depends} firmtouch_host_tools ${CMAKE_BINARY_DIR}/host-tools/bin/firmtouch PARENT_SCOPE)
 endfunction()
 
-# A target that configures and builds this source tree for the building machine. The environment's compilers and flags
-# are the cross build's, so they are kept out.
+# A target that configures and builds this source tree for the building machine, with this build's generator: there may be
+# no other. The environment's compilers and flags are the cross build's, so they are kept out.
 function(firmtouch_add_host_tools)
   if(TARGET firmtouch_host_tools)
     return()
@@ -48,11 +48,12 @@ function(firmtouch_add_host_tools)
   if(FIRMTOUCH_HOST_CXX)
     set(compiler -DCMAKE_CXX_COMPILER=${FIRMTOUCH_HOST_CXX})
   endif()
+  string(REPLACE " Multi-Config" "" generator ${CMAKE_GENERATOR})  # which puts programs into folders of its own
   cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
   add_custom_target(
     firmtouch_host_tools
-    COMMAND ${clean} ${CMAKE_COMMAND} -S ${source} -B ${build} -DCMAKE_BUILD_TYPE=Release -DFIRMTOUCH_TESTS=OFF
-            -DFIRMTOUCH_TOOLS=ON ${compiler}
+    COMMAND ${clean} ${CMAKE_COMMAND} -S ${source} -B ${build} -G ${generator} -DCMAKE_MAKE_PROGRAM=${CMAKE_MAKE_PROGRAM}
+            -DCMAKE_BUILD_TYPE=Release -DFIRMTOUCH_TESTS=OFF -DFIRMTOUCH_TOOLS=ON ${compiler}
     COMMAND ${clean} ${CMAKE_COMMAND} --build ${build} --target firmtouch --parallel ${cores}
     BYPRODUCTS ${build}/bin/firmtouch
     COMMENT "Firmtouch's baker, for this machine"
@@ -62,6 +63,8 @@ endfunction()
 # Target `target`: the host's program writes `output` (relative: in the current binary folder) by `words` -o output `options`.
 function(firmtouch_add_output target output verb words options depends)
   get_filename_component(path ${output} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
+  get_filename_component(folder ${path} DIRECTORY)
+  file(MAKE_DIRECTORY ${folder})  # make does not, ninja does
   firmtouch_host_program(program program_depends)
   add_custom_command(
     OUTPUT ${path}
