@@ -111,7 +111,13 @@ void LiveServer::read(Client& client) {
   while (!client.is_page && !client.is_ending) {
     const size_t end = client.received.find("\r\n\r\n");
     if (end == std::string::npos) {
-      client.is_ending = client.received.size() > kMaxHead;
+      if (client.received.size() <= kMaxHead) return;
+      client.is_ending = true;
+      client.waiting =
+          response("431 Request Header Fields Too Large", "text/plain",
+                   "the request's head has more than " + std::to_string(kMaxHead) +
+                       " bytes; delete the cookies of other pages of this machine, or use a "
+                       "private window\n");
       return;
     }
     const std::string head = client.received.substr(0, end + 4);
