@@ -126,16 +126,27 @@ endfunction()
 # firmtouch_embed(TARGET NAME ASSET scene.fta|BAKE_TARGET SYMBOL SYM): static library NAME with
 #     extern "C" const unsigned char SYM[];       the asset, 16-byte aligned, in section .firmtouch_asset
 #     extern "C" const unsigned SYM_size;         its length in bytes
-# so that a linker script can place the asset in memory-mapped flash.
+# so that a linker script can place the asset in memory-mapped flash. A relative ASSET is in the current source folder, or made
+# in the binary folder.
 function(firmtouch_embed)
   cmake_parse_arguments(embed "" "TARGET;ASSET;SYMBOL" "" ${ARGN})
   if(NOT embed_TARGET OR NOT embed_ASSET OR NOT embed_SYMBOL OR embed_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "firmtouch_embed(TARGET name ASSET scene.fta SYMBOL symbol)")
   endif()
+  if(NOT embed_SYMBOL MATCHES "^[A-Za-z_][A-Za-z0-9_]*$")
+    message(FATAL_ERROR "firmtouch_embed: SYMBOL ${embed_SYMBOL} is no name in C")
+  endif()
   if(TARGET ${embed_ASSET})
     get_target_property(asset ${embed_ASSET} FIRMTOUCH_ASSET)
   else()
-    get_filename_component(asset ${embed_ASSET} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
+    get_filename_component(asset ${embed_ASSET} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_SOURCE_DIR})
+    if(NOT EXISTS ${asset})
+      get_filename_component(asset ${embed_ASSET} ABSOLUTE BASE_DIR ${CMAKE_CURRENT_BINARY_DIR})
+    endif()
+    if(NOT EXISTS ${asset} AND NOT embed_ASSET MATCHES "[.]")
+      message(FATAL_ERROR "firmtouch_embed: there is no target and no file ${embed_ASSET}. firmtouch_bake(TARGET ${embed_ASSET} "
+                          "...) comes before it.")
+    endif()
   endif()
   set(symbol ${embed_SYMBOL})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${embed_TARGET}.embed.cpp)
