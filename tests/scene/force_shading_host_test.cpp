@@ -202,6 +202,25 @@ TEST(ForceShading_ClosedWays_GiveNoMoreThanContactWithoutIt) {
       }
 }
 
+// Friction holds the proxy beside an edge, and the hand goes round below it: its turns, which are
+// no fall, led the lag round with it, for as much energy as there are turns.
+TEST(ForceShading_HandThatCirclesBelowAProxyThatStands_GetsNothing) {
+  for (const double round_m : {0.003, 0.1}) {
+    ShadedRig rig(bent(0.5), 0.0005, round_m);
+    double x_m = -0.005;
+    for (int i = 0; i < 300; ++i) rig.tick(x_m, 0.001, -0.0015 + 0.003 * (299 - i) / 299);
+    while (rig.shading.aside_m.x >= 0) rig.tick(x_m += 2e-5, 0.001, -0.0015);
+    rig.contact.settings.friction_static = rig.contact.settings.friction_dynamic = 2.0f;
+    const double before_J = rig.given_J;
+    for (int i = 0; i <= 4000; ++i) {
+      const double turn = 2 * kPi * i / 400;
+      rig.tick(x_m + 0.0005 * std::sin(turn), 0.001 + 0.0005 * (1 - std::cos(turn)), -0.0015);
+    }
+    CHECK(rig.model.spring.is_held);
+    CHECK_LE(rig.given_J, before_J);
+  }
+}
+
 // The same contact on an object that moves has the same lag: what carries the proxy is no way.
 TEST(ForceShading_CarriedProxy_KeepsItsLag) {
   const Vec3 carried_m{0.0005f, -0.0002f, 0.0001f};

@@ -25,7 +25,8 @@ struct ForceShading {
 
 /// Moves the end of a spring that pulls to the proxy. `round_m`: s; 0: what is left of a lag goes
 /// within a tenth of a millimetre. `carried_m`: by the object that the proxy is on, since the last
-/// tick. A proxy that stands keeps its lag, and a lag fades with the depth.
+/// tick. A proxy that stands keeps its lag, less what the hand turns about it, and a lag fades
+/// with the depth.
 /// Bounds: constant; re-entrant for different states.
 /// Result: the end is within the proxy's depth of the proxy.
 void shade(float round_m, const math::Vec3& hand_m, const math::Vec3& carried_m, ForceShading& last,
