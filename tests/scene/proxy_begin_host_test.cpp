@@ -66,6 +66,21 @@ TEST(Proxy_BeginsOnTheSurface_GrowsBesideIt) {
   }
 }
 
+// What it has for a tick does not suffice to look where it stands, too.
+TEST(Proxy_BeginsTooNearWithLittleWork_GoesOnGrowing) {
+  ProxyRig rig(groove());
+  Broken broken;
+  rig.settings.budget.work = 16;
+  rig.settings.friction_static = rig.settings.friction_dynamic = 0.4f;
+  uint32_t starved = 0;
+  for (int tick = 0; tick < 50; ++tick) {
+    rig.tick({0.0012789655f, 0.000273805083f, -0.00868459325f}, broken);
+    rig.settings.growth_m = 5e-6f;
+    starved += rig.moved.is_starved ? 1 : 0;
+  }
+  CHECK_LE(starved, 1u);
+}
+
 // No hand about the surface is left without a side, on whichever shape.
 template <class Shape>
 void begin_about(Shape shape, Vec3 out) {

@@ -237,7 +237,8 @@ bool ProxyMove::aim() {
     is_short_ = cap_ >= kCap && moved_.work <= work_left_ / 2 && work_left_ >= kMinWayWork;
   }
   // A tool may have more room where it stands than what is certified.
-  if (proxy_.radius_m < kSqueezed * aimed_radius_m_ && moved_.queries == 0 && work_left_ > 0) {
+  if (proxy_.radius_m < kSqueezed * aimed_radius_m_ && moved_.queries == 0 &&
+      work_left_ >= kMinWayWork) {  // or the move itself would lack it
     trial_m_ = proxy_.position_m;
     is_short_ = false;
     return true;
