@@ -250,6 +250,7 @@ TEST(ForceShading_AnyHandAndCarrier_LeaveAnEndWithinTheDepthOfTheProxy) {
     spring.is_held = i % 11 != 0;
     scene::shade(std::fabs(draw()), hand_m, i % 13 == 0 ? place() : Vec3{}, last, spring);
     CHECK(math::is_finite(spring.anchor_m));
+    CHECK(spring.is_held || last.depth_m <= 0);  // the next contact begins anew
     if (math::is_finite(hand_m))
       CHECK_LE(size_m(spring.anchor_m - proxy_m), size_m(proxy_m - hand_m) * 1.00001);
   }

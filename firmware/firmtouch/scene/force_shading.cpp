@@ -16,22 +16,20 @@ void shade(float round_m, const Vec3& hand_m, const Vec3& carried_m, ForceShadin
   Vec3 aside_m;
   float left_m = 0;
   if (last.depth_m > 0.0f && depth_m > 0.0f) {
-    // What the pull was across the present one is the new lag; the rest of the proxy's way is no
-    // fall.
+    // By how much the pull has turned: a fall of the proxy, and the new lag, as far as the proxy
+    // has gone. The rest is a turn of the hand, which takes as much of the lag: one that a hand
+    // could lead round would give energy at each turn.
     Vec3 turned_m = last.pull_m - pull_m * (math::dot(last.pull_m, pull_m) / (depth_m * depth_m));
     Vec3 way_m = spring.anchor_m - last.proxy_m - carried_m;
-    // Beyond the proxy's own way the hand has turned the pull. That is no fall, and takes as much
-    // of the lag: a lag that a hand could lead round would give energy at each turn.
-    const float most_m = math::length(way_m), all_m = math::length(turned_m);
-    const float beyond_m = all_m - most_m;
-    if (beyond_m > 0.0f) turned_m = turned_m * (most_m / all_m);
-    way_m = way_m + turned_m;
+    const float gone_m = math::length(way_m), turn_m = math::length(turned_m);
+    const float by_hand_m = larger(turn_m - gone_m, 0.0f);
+    if (by_hand_m > 0.0f) turned_m = turned_m * (gone_m / turn_m);
+    way_m = way_m + turned_m;  // without the fall
     aside_m = last.aside_m * smaller(depth_m / last.depth_m, 1.0f) + turned_m;
-    // The end stands where that comes towards it: so nothing stays that does not hold the hand
-    // back.
+    // The end stands where the proxy comes towards it, so that no lag pushes the hand on.
     const float size_m = math::length(aside_m), towards_m = math::dot(aside_m, way_m) / size_m;
-    const float by = depth_m / larger(round_m, kMinRound_m);
-    left_m = size_m - larger(beyond_m, 0.0f) - larger(towards_m, math::length(way_m) * by);
+    const float followed_m = math::length(way_m) * (depth_m / larger(round_m, kMinRound_m));
+    left_m = size_m - by_hand_m - larger(towards_m, followed_m);
     if (left_m > depth_m) left_m = depth_m;
     aside_m = left_m > 0.0f ? aside_m * (left_m / size_m) : Vec3{};
   }
